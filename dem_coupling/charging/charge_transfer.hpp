@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/charging/charging_pairs.hpp"
+#include "dem_coupling/charging/compensated_sum.hpp"
+#include "dem_coupling/charging/contact_recorder.hpp"
+#include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/charging/wall_contact_memory.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace him {
+
+/// The field handed to the DEM, per row, with the positions and charges that made it: Ex, Ey, Ez [V/m], x, y, z [m], q [C].
+struct HeldField {
+    static constexpr int width = 7;
+    const double* const* rows = nullptr;   ///< null when the scene has no field
+};
+
+/// The DEM's arrays of one step. Rows [0, local) are owned, [local, all) are ghosts.
+struct DemRows {
+    int local = 0;
+    int all = 0;
+    const int* tag = nullptr;
+    const int* type = nullptr;
+    const double* radius = nullptr;   ///< [m]
+    double* charge = nullptr;         ///< [C]
+    HeldField held;
+};
+
+/// Moves the charge of one step's growing contacts: physics.md's law with the factor shared by all contacts of a
+/// particle, evaluated in tag order, so that both ranks of a contact get bit-opposite numbers, and applied once.
+class ChargeTransfer {
+public:
+    ChargeTransfer(ChargingPairs pairs, double permittivity) : pairs_(std::move(pairs)) { setPermittivity(permittivity); }
+
+    void setPermittivity(double permittivity);
+    void setWallContactField(WallContactField field) { wallField_ = field; }
+    void setPartnerCutoff(double cutoff) { partnerCutoff_ = cutoff; }
+    /// One entry per wall.
+    void setWalls(std::vector<int> types, std::vector<char> transfers);
+    /// Shortest vector between two positions in a periodic box, in place; null for an open box.
+    void setMinimumImage(void (*shorten)(void* box, double* vector), void* box)
+    {
+        shorten_ = shorten;
+        box_ = box;
+    }
+
+    const ChargingPairs& pairs() const { return pairs_; }
+
+    /// First half of a step: sums every particle's relaxation numbers. Afterwards relaxationSums() of the ghosts must be
+    /// filled from their owners, like their charges.
+    void sumRelaxations(const DemRows& rows, const std::vector<GrowingPair>& pairs,
+                        const std::vector<GrowingWallContact>& wallContacts);
+    std::vector<double>& relaxationSums() { return relaxationSums_; }
+
+    /// Second half: computes every contact's charge, then applies all of it to the owned rows.
+    void move(const DemRows& rows, const std::vector<GrowingPair>& pairs, const std::vector<GrowingWallContact>& wallContacts);
+
+    /// Charge given to each wall by this rank [C].
+    std::vector<CompensatedSum>& toWall() { return toWall_; }
+    const std::vector<CompensatedSum>& toWall() const { return toWall_; }
+    double largestRelaxation() const { return largestRelaxation_; }
+
+private:
+    double ownField(const DemRows& rows, int row) const;
+    double fieldAtContact(const DemRows& rows, int a, int b, const double* normal) const;
+
+    ChargingPairs pairs_;
+    double permittivity_ = 0;
+    double coulomb_ = 0;   ///< 1/(4 pi eps) [m/F]
+    WallContactField wallField_ = WallContactField::total;
+    double partnerCutoff_ = std::numeric_limits<double>::infinity();
+    void (*shorten_)(void*, double*) = nullptr;
+    void* box_ = nullptr;
+    std::vector<int> wallTypes_;
+    std::vector<char> wallTransfers_;
+    std::vector<double> relaxationSums_;
+    std::vector<double> gained_;
+    std::vector<CompensatedSum> toWall_;
+    double largestRelaxation_ = 0;
+};
+
+}  // namespace him

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/charging/contact_recorder.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace him {
+
+/// A wall contact whose area grew in this step.
+struct GrowingWallContact {
+    int particle;
+    int wall;
+    double growth;      ///< dA > 0 [m2]
+    double normal[3];   ///< from the particle into the wall
+};
+
+/// Contact areas of the last step per (particle, wall, direction). LIGGGHTS keeps contact history per triangle and does
+/// not carry it over edges that are not coplanar, so a ball that rolls over a tessellated wall would charge anew at every
+/// facet. Here facets whose normals differ by less than an angle are one contact.
+class WallContactMemory {
+public:
+    /// @param curvature  angle [degrees] between normals below which two touches of a wall are one contact; 0 < curvature < 90
+    explicit WallContactMemory(double curvature);
+
+    /// Makes room for the rows [0, rows).
+    void resize(std::size_t rows) { contacts_.resize(rows); }
+    void copyRow(int from, int to) { contacts_[to] = contacts_[from]; }
+    void clearRow(int row) { contacts_[row].clear(); }
+
+    /// Doubles needed to store a row, and storing and reading it (migration, restart). Both return the count.
+    std::size_t packedSize(int row) const { return 1 + contactDoubles * contacts_[row].size(); }
+    std::size_t pack(int row, double* buffer) const;
+    std::size_t unpack(int row, const double* buffer);
+
+    /// Takes the touches of one step of the rows [0, rows) and lists the contacts that grew. Contacts without a touch end.
+    /// @return number of contacts that began
+    std::int64_t update(const std::vector<WallTouch>& touches, int rows, Reloading reloading,
+                        std::vector<GrowingWallContact>& growing);
+
+private:
+    struct Contact {
+        int wall;
+        double area;          ///< at the last step [m2]
+        double largestArea;   ///< [m2]
+        double normal[3];
+        double newArea;       ///< of this step; negative until a touch is seen
+    };
+    static constexpr std::size_t contactDoubles = 6;
+
+    Contact* find(int row, const WallTouch& touch);
+
+    double cosCurvature_;
+    std::vector<std::vector<Contact>> contacts_;
+};
+
+}  // namespace him

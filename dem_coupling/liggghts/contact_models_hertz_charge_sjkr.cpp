@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/liggghts/contact_model_instances.hpp"
+
+void him::registerHertzChargeSjkr()
+{
+    registerCombinations<models::HERTZ, models::COHESION_CHARGE_SJKR>();
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/charging/charge_transfer.hpp"
+#include "dem_coupling/charging/contact_recorder.hpp"
+#include "dem_coupling/charging/wall_contact_memory.hpp"
+#include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/liggghts/wall_list.hpp"
+
+#include "fix.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace him {
+
+class FixCoupleCfdEfield;
+
+/// fix ID group charge/gran/contact pair I J gamma V kappa K ... keyword value ...
+///
+/// Contact charging: works off the contacts that the contact model `charge` recorded, once per step, after all forces.
+/// Also keeps the books: charge given to every wall, and charge of particles that appeared. See doc/charge_gran_contact.md.
+class FixChargeGranContact : public LAMMPS_NS::Fix {
+public:
+    FixChargeGranContact(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+    ~FixChargeGranContact() override;
+
+    /// The charging fix of this LIGGGHTS instance, or null.
+    static FixChargeGranContact* find(LAMMPS_NS::LAMMPS* lmp);
+    /// A host that hands charging over later sets this before the script is read; fixes then start switched off.
+    static bool hosted;
+
+    // --- for the contact model
+    ContactRecorder& recorder() { return recorder_; }
+    bool contains(int row) const;
+    int wallRow(const LAMMPS_NS::Fix* wall) const;
+    /// Reads the list of walls again; keeps the charges given to walls that are still there.
+    void refreshWalls();
+
+    // --- for the host
+    ChargeTransfer& transfer() { return transfer_; }
+    const std::vector<ListedWall>& walls() const { return walls_; }
+    void setWallRoles(const std::vector<WallRole>& roles);
+    /// Switches charging on and opens the books: the charge that is there now has not been inserted.
+    void handOver();
+    std::string description() const;
+    /// Sums over ranks. Collective.
+    ChargeMovements movements() const;
+    ContactCounts contacts() const;
+
+    // --- LIGGGHTS' life cycle
+    int setmask() override;
+    void init() override;
+    void end_of_step() override;
+    double compute_vector(int n) override;   ///< [0] inserted, [1 + w] given to wall w [C]
+    void grow_arrays(int rows) override;
+    void copy_arrays(int from, int to, int deleting) override;
+    void set_arrays(int row) override;
+    int pack_exchange(int row, double* buffer) override;
+    int unpack_exchange(int row, double* buffer) override;
+    int pack_comm(int n, int* list, double* buffer, int pbcFlag, int* pbc) override;
+    void unpack_comm(int n, int first, double* buffer) override;
+    int pack_restart(int row, double* buffer) override;
+    void unpack_restart(int row, int nth) override;
+    int size_restart(int row) override;
+    int maxsize_restart() override;
+    void write_restart(FILE* file) override;
+    void restart(char* buffer) override;
+
+private:
+    struct Options {
+        ChargingPairs pairs;
+        AreaLaw area = AreaLaw::hertz;
+        Reloading reloading = Reloading::counted;
+        double curvature = 10;
+    };
+    Options readOptions(int narg, char** arg);
+    std::size_t packRow(int row, double* buffer) const;
+    void bookArrivals();
+
+    ContactRecorder recorder_;
+    ChargeTransfer transfer_;
+    WallContactMemory wallMemory_;
+    std::vector<GrowingWallContact> growingWallContacts_;
+    std::vector<ListedWall> walls_;
+    std::vector<WallRole> roles_;
+    std::vector<char> booked_;        ///< per row: the particle's charge stands in the books
+    bool arrivals_ = false;
+    bool enabled_;
+    FixCoupleCfdEfield* field_ = nullptr;
+    CompensatedSum inserted_;
+    std::vector<double> restartedToWall_;
+    double pairsBegun_ = 0;
+    double wallContactsBegun_ = 0;
+    double curvature_ = 0;
+};
+
+}  // namespace him

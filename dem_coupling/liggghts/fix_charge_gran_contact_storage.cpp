@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How fix charge/gran/contact grows, migrates and restarts with the particles.
+#include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
+
+#include "atom.h"
+#include "comm.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace him {
+namespace {
+
+/// Wall contacts of one particle that a restart file makes room for.
+constexpr int restartContacts = 64;
+
+}  // namespace
+
+void FixChargeGranContact::grow_arrays(int rows)
+{
+    wallMemory_.resize(rows);
+    booked_.resize(rows, 0);
+}
+
+void FixChargeGranContact::copy_arrays(int from, int to, int)
+{
+    wallMemory_.copyRow(from, to);
+    booked_[to] = booked_[from];
+}
+
+void FixChargeGranContact::set_arrays(int row)
+{
+    wallMemory_.clearRow(row);
+    booked_[row] = 0;
+    arrivals_ = true;
+}
+
+std::size_t FixChargeGranContact::packRow(int row, double* buffer) const
+{
+    buffer[0] = booked_[row];
+    return 1 + wallMemory_.pack(row, buffer + 1);
+}
+
+int FixChargeGranContact::pack_exchange(int row, double* buffer)
+{
+    return static_cast<int>(packRow(row, buffer));
+}
+
+int FixChargeGranContact::unpack_exchange(int row, double* buffer)
+{
+    booked_[row] = static_cast<char>(buffer[0]);
+    arrivals_ = arrivals_ || !booked_[row];
+    return static_cast<int>(1 + wallMemory_.unpack(row, buffer + 1));
+}
+
+int FixChargeGranContact::size_restart(int row)
+{
+    return static_cast<int>(2 + wallMemory_.packedSize(row));
+}
+
+int FixChargeGranContact::maxsize_restart()
+{
+    return 2 + 1 + 6 * restartContacts;
+}
+
+int FixChargeGranContact::pack_restart(int row, double* buffer)
+{
+    const std::size_t n = packRow(row, buffer + 1);
+    buffer[0] = static_cast<double>(n + 1);
+    return static_cast<int>(n + 1);
+}
+
+void FixChargeGranContact::unpack_restart(int row, int nth)
+{
+    // The extra values of all fixes stand one after the other, each with its length in front.
+    const double* extra = atom->extra[row];
+    int at = 0;
+    for (int fix = 0; fix < nth; ++fix) {
+        at += static_cast<int>(extra[at]);
+    }
+    booked_[row] = static_cast<char>(extra[at + 1]);
+    wallMemory_.unpack(row, extra + at + 2);
+}
+
+void FixChargeGranContact::write_restart(FILE* file)
+{
+    const ChargeMovements total = movements();
+    if (comm->me != 0) {
+        return;
+    }
+    std::vector<double> state{total.inserted};
+    state.insert(state.end(), total.toWall.begin(), total.toWall.end());
+    const int bytes = static_cast<int>(state.size() * sizeof(double));
+    fwrite(&bytes, sizeof(int), 1, file);
+    fwrite(state.data(), sizeof(double), state.size(), file);
+}
+
+void FixChargeGranContact::restart(char* buffer)
+{
+    // The sums over all ranks continue on rank 0.
+    if (comm->me != 0) {
+        return;
+    }
+    const auto* state = reinterpret_cast<const double*>(buffer);
+    const std::vector<ListedWall> walls = listWalls(lmp);
+    inserted_ = CompensatedSum(state[0]);
+    restartedToWall_.assign(state + 1, state + 1 + walls.size());
+}
+
+}  // namespace him

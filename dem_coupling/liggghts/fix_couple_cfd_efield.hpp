@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/dem_port.hpp"
+
+#include "fix.h"
+
+namespace him {
+
+/// fix ID group couple/cfd/efield
+///
+/// Holds the electric field that the host computed at every particle, with the position and charge that made it, and adds
+/// F = q E (S2.16) with the particle's charge of the moment. The host sets the field; it stays until the next one.
+class FixCoupleCfdEfield : public LAMMPS_NS::Fix {
+public:
+    FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+    ~FixCoupleCfdEfield() override;
+
+    /// Field [V/m] at the owned particles, in the order of their rows. Collective: ghosts get it too.
+    void setField(const Points& field);
+    /// Per row, see HeldField.
+    const double* const* held() const { return held_; }
+
+    int setmask() override;
+    void setup(int) override;
+    void post_force(int) override;
+    void grow_arrays(int rows) override;
+    void copy_arrays(int from, int to, int deleting) override;
+    void set_arrays(int row) override;
+    int pack_exchange(int row, double* buffer) override;
+    int unpack_exchange(int row, double* buffer) override;
+    int pack_border(int n, int* list, double* buffer) override;
+    int unpack_border(int n, int first, double* buffer) override;
+    int pack_comm(int n, int* list, double* buffer, int pbcFlag, int* pbc) override;
+    void unpack_comm(int n, int first, double* buffer) override;
+
+private:
+    double** held_ = nullptr;
+};
+
+}  // namespace him

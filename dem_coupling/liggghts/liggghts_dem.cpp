@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/liggghts/liggghts_dem.hpp"
+
+#include "dem_coupling/liggghts/contact_models.hpp"
+#include "dem_coupling/liggghts/fix_registry.hpp"
+
+#include "atom.h"
+#include "domain.h"
+#include "force.h"
+#include "input.h"
+#include "modify.h"
+#include "pair_gran.h"
+#include "update.h"
+
+#include <cstdio>
+#include <cstring>
+#include <set>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace him {
+namespace {
+
+/// Id of the field fix that the host adds to the user's script.
+constexpr const char* fieldFixId = "himFoamElectricField";
+
+std::unique_ptr<LAMMPS_NS::LAMMPS> start(const DemOptions& options, MPI_Comm communicator)
+{
+    std::string log = options.logFile.empty() ? "none" : options.logFile;
+    char program[] = "himFoam", logFlag[] = "-log", screenFlag[] = "-screen", devNull[] = "/dev/null";
+    char* arguments[] = {program, logFlag, log.data(), screenFlag, devNull};
+    return std::make_unique<LAMMPS_NS::LAMMPS>(5, arguments, communicator);
+}
+
+}  // namespace
+
+std::unique_ptr<DemPort> openLiggghts(const DemOptions& options, MPI_Comm communicator)
+{
+    return std::make_unique<LiggghtsDem>(options, communicator);
+}
+
+LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
+    : script_(options.script), communicator_(communicator)
+{
+    if (chdir(options.directory.c_str()) != 0) {
+        throw std::runtime_error("can not enter the case directory " + options.directory);
+    }
+    registerContactModels();
+    FixChargeGranContact::hosted = true;
+    lmp_ = start(options, communicator);
+    if (lmp_->screen) {
+        std::fclose(lmp_->screen);
+        screen_ = std::make_unique<LiggghtsScreen>();
+        lmp_->screen = screen_->stream();
+    }
+    registerFixes(lmp_.get());
+    lmp_->input->file(script_.c_str());
+
+    for (const ListedWall& wall : listWalls(lmp_.get())) {
+        walls_.push_back(wall.wall);
+    }
+    charging_ = FixChargeGranContact::find(lmp_.get());
+}
+
+void LiggghtsDem::command(const std::string& line)
+{
+    lmp_->input->one(line.c_str());
+}
+
+// ---------------------------------------------------------------------- the scene
+
+double LiggghtsDem::timeStep() const
+{
+    return lmp_->update->dt;
+}
+
+Box LiggghtsDem::box() const
+{
+    Box box;
+    box.lower = Vector3(lmp_->domain->boxlo);
+    box.upper = Vector3(lmp_->domain->boxhi);
+    return box;
+}
+
+std::array<bool, 3> LiggghtsDem::periodic() const
+{
+    return {lmp_->domain->xperiodic != 0, lmp_->domain->yperiodic != 0, lmp_->domain->zperiodic != 0};
+}
+
+std::string LiggghtsDem::chargingDescription() const
+{
+    return charging_ ? charging_->description() : std::string();
+}
+
+bool LiggghtsDem::ranBeforeHandOver() const
+{
+    return lmp_->update->ntimestep > 0;
+}
+
+Complaints LiggghtsDem::check() const
+{
+    Complaints complaints;
+    if (!lmp_->domain->box_exist) {
+        complaints.add(script_, "the script creates no simulation box. Use 'create_box', 'read_data' or 'read_restart'.");
+        return complaints;
+    }
+    if (std::strcmp(lmp_->update->unit_style, "si") != 0) {
+        complaints.add(script_, "units '" + std::string(lmp_->update->unit_style)
+                                    + "' found; himFoam works in SI only. Write 'units si'.");
+    }
+    if (!lmp_->atom->q_flag || !lmp_->atom->radius_flag) {
+        complaints.add(script_, "atom_style '" + std::string(lmp_->atom->atom_style)
+                                    + "' found; charged spheres are needed. Write 'atom_style hybrid granular charge'.");
+    }
+    if (lmp_->force->cg_active()) {
+        complaints.add(script_, "coarse graining is on; the charging law is for real particles only. Remove 'coarsegraining'.");
+    }
+    if (lmp_->modify->n_fixes_style("multisphere") > 0) {
+        complaints.add(script_, "multisphere particles found; only single spheres carry charge here. Remove 'fix multisphere'.");
+    }
+    if (lmp_->atom->superquadric_flag) {
+        complaints.add(script_, "superquadric particles found; only spheres carry charge here. Use 'atom_style hybrid granular charge'.");
+    }
+    if (charging_) {
+        checkContactModels(complaints);
+        checkPairs(complaints);
+    }
+    return complaints;
+}
+
+void LiggghtsDem::checkContactModels(Complaints& complaints) const
+{
+    auto* pair = dynamic_cast<LAMMPS_NS::PairGran*>(lmp_->force->pair);
+    if (!pair || !(pair->contact_match("cohesion", "charge") || pair->contact_match("cohesion", "charge/sjkr"))) {
+        complaints.add(script_, "fix charge/gran/contact is there, but pair_style does not record contacts. Add 'cohesion charge' (or "
+                                "'cohesion charge/sjkr') to pair_style gran. Known: "
+                                    + knownContactModels() + ".");
+    }
+}
+
+void LiggghtsDem::checkPairs(Complaints& complaints) const
+{
+    std::set<int> wallTypes, particleTypes;
+    for (const DemWall& wall : walls_) {
+        if (wall.chargingModel) {
+            wallTypes.insert(wall.type);
+        }
+    }
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    std::vector<int> present(atom.ntypes + 1, 0);
+    for (int i = 0; i < atom.nlocal; ++i) {
+        present[atom.type[i]] = 1;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, present.data(), static_cast<int>(present.size()), MPI_INT, MPI_MAX, communicator_);
+    for (int type = 1; type <= atom.ntypes; ++type) {
+        // A type that no wall has may be inserted later.
+        if (present[type] || !wallTypes.count(type)) {
+            particleTypes.insert(type);
+        }
+    }
+    charging_->transfer().pairs().complainAboutMissing({particleTypes.begin(), particleTypes.end()},
+                                                       {wallTypes.begin(), wallTypes.end()},
+                                                       script_ + ": fix " + charging_->id, complaints);
+}
+
+// ---------------------------------------------------------------------- settings
+
+void LiggghtsDem::setWallRoles(const std::vector<WallRole>& roles)
+{
+    if (charging_) {
+        charging_->setWallRoles(roles);
+    }
+}
+
+void LiggghtsDem::setWallContactField(WallContactField field)
+{
+    if (charging_) {
+        charging_->transfer().setWallContactField(field);
+    }
+}
+
+void LiggghtsDem::setPermittivity(double permittivity)
+{
+    if (charging_) {
+        charging_->transfer().setPermittivity(permittivity);
+    }
+}
+
+void LiggghtsDem::setPartnerCutoff(double cutoff)
+{
+    if (charging_) {
+        charging_->transfer().setPartnerCutoff(cutoff);
+    }
+}
+
+void LiggghtsDem::handOver()
+{
+    if (charging_) {
+        charging_->handOver();
+    }
+    if (screen_) {
+        screen_->quiet();
+    }
+    if (lmp_->logfile) {
+        std::fprintf(lmp_->logfile, "\n# Step " BIGINT_FORMAT ": handed over to himFoam, which reports in its own log.\n",
+                     lmp_->update->ntimestep);
+        std::fclose(lmp_->logfile);
+        lmp_->logfile = nullptr;
+    }
+    // Set-up: neighbour lists, ghosts and the forces of the first step. Time does not advance.
+    command("run 0 post no");
+}
+
+// ---------------------------------------------------------------------- the run
+
+void LiggghtsDem::particles(DemParticles& out) const
+{
+    const LAMMPS_NS::Atom& atom = *lmp_->atom;
+    const int n = atom.nlocal;
+    out.tag.assign(atom.tag, atom.tag + n);
+    out.type.assign(atom.type, atom.type + n);
+    out.position.resize(n, 3);
+    out.velocity.resize(n, 3);
+    for (int i = 0; i < n; ++i) {
+        for (int d = 0; d < 3; ++d) {
+            out.position(i, d) = atom.x[i][d];
+            out.velocity(i, d) = atom.v[i][d];
+        }
+    }
+    out.charge = Eigen::Map<const Scalars>(atom.q, n);
+    out.radius = Eigen::Map<const Scalars>(atom.radius, n);
+    out.mass = Eigen::Map<const Scalars>(atom.rmass, n);
+}
+
+void LiggghtsDem::setField(const DemParticles& particles, const Points& field)
+{
+    if (particles.size() != lmp_->atom->nlocal || field.rows() != particles.size()) {
+        throw std::logic_error("setField: the field is not that of the particles last read");
+    }
+    if (!field_) {
+        command(std::string("fix ") + fieldFixId + " all couple/cfd/efield");
+        field_ = static_cast<FixCoupleCfdEfield*>(lmp_->modify->find_fix_id(fieldFixId));
+    }
+    field_->setField(field);
+}
+
+void LiggghtsDem::run(long steps)
+{
+    command("run " + std::to_string(steps) + " pre no post no");
+}
+
+std::int64_t LiggghtsDem::particleCount() const
+{
+    return lmp_->atom->natoms;
+}
+
+ChargeMovements LiggghtsDem::movements() const
+{
+    ChargeMovements none;
+    none.toWall.assign(walls_.size(), 0.0);
+    return charging_ ? charging_->movements() : none;
+}
+
+ContactCounts LiggghtsDem::contacts() const
+{
+    return charging_ ? charging_->contacts() : ContactCounts();
+}
+
+void LiggghtsDem::writeCheckpoint(const std::string& file)
+{
+    command("write_restart " + file);
+}
+
+}  // namespace him

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
+#include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
+#include "dem_coupling/liggghts/liggghts_screen.hpp"
+
+#include "lammps.h"
+
+#include <memory>
+
+namespace him {
+
+/// The DEM side on LIGGGHTS as a library in this process.
+class LiggghtsDem : public DemPort {
+public:
+    LiggghtsDem(const DemOptions& options, MPI_Comm communicator);
+
+    double timeStep() const override;
+    Box box() const override;
+    std::array<bool, 3> periodic() const override;
+    const std::vector<DemWall>& walls() const override { return walls_; }
+    bool charging() const override { return charging_ != nullptr; }
+    std::string chargingDescription() const override;
+    Complaints check() const override;
+    bool ranBeforeHandOver() const override;
+
+    void setWallRoles(const std::vector<WallRole>& roles) override;
+    void setWallContactField(WallContactField field) override;
+    void setPermittivity(double permittivity) override;
+    void setPartnerCutoff(double cutoff) override;
+    void handOver() override;
+
+    void particles(DemParticles& out) const override;
+    void setField(const DemParticles& particles, const Points& field) override;
+    void run(long steps) override;
+    std::int64_t particleCount() const override;
+
+    ChargeMovements movements() const override;
+    ContactCounts contacts() const override;
+    void writeCheckpoint(const std::string& file) override;
+
+private:
+    void command(const std::string& line);
+    void checkContactModels(Complaints& complaints) const;
+    void checkPairs(Complaints& complaints) const;
+
+    std::string script_;
+    MPI_Comm communicator_;
+    std::unique_ptr<LiggghtsScreen> screen_;   ///< outlives lmp_, which writes to it
+    std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
+    std::vector<DemWall> walls_;
+    FixChargeGranContact* charging_ = nullptr;
+    FixCoupleCfdEfield* field_ = nullptr;
+};
+
+}  // namespace him

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/liggghts/wall_list.hpp"
+
+#include "dem_coupling/liggghts/private_access.hpp"
+
+#include "fix_mesh_surface.h"
+#include "fix_wall_gran.h"
+#include "lammps.h"
+#include "modify.h"
+#include "primitive_wall.h"
+
+namespace him {
+
+namespace primitives = LAMMPS_NS::PRIMITIVE_WALL_DEFINITIONS;
+
+struct PrimitiveShape {
+    using Member = primitives::WallType LAMMPS_NS::PrimitiveWall::*;
+    friend Member memberOf(PrimitiveShape);
+};
+template struct PrivateMember<PrimitiveShape, &LAMMPS_NS::PrimitiveWall::wType>;
+
+std::vector<ListedWall> listWalls(LAMMPS_NS::LAMMPS* lmp)
+{
+    std::vector<ListedWall> walls;
+    for (int i = 0; i < lmp->modify->nfix; ++i) {
+        auto* fix = dynamic_cast<LAMMPS_NS::FixWallGran*>(lmp->modify->fix[i]);
+        if (!fix) {
+            continue;
+        }
+        const bool charging = fix->contact_match("cohesion", "charge") || fix->contact_match("cohesion", "charge/sjkr");
+        if (fix->is_mesh_wall()) {
+            for (int m = 0; m < fix->n_meshes(); ++m) {
+                LAMMPS_NS::FixMeshSurface* mesh = fix->mesh_list()[m];
+                walls.push_back({{mesh->id, "mesh", mesh->atomTypeWall(), charging}, mesh});
+            }
+        } else {
+            const auto shape = fix->primitiveWall()->*memberOf(PrimitiveShape{});
+            walls.push_back({{fix->id, primitives::wallString[shape], fix->atom_type_wall(), charging}, fix});
+        }
+    }
+    return walls;
+}
+
+}  // namespace him
