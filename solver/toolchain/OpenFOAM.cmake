@@ -12,19 +12,24 @@
 # Targets    OpenFOAM::<library> for every line of openfoam_libraries.txt; each brings its headers (as system headers, so
 #            that our warnings do not fire in them), OpenFOAM's compile definitions and the libraries it needs.
 # Sets       OpenFOAM_FOUND, OpenFOAM_API (1912, ...), OpenFOAM_TREE (the folder that holds src/).
-# Choose by  cmake -DHIMFOAM_OPENFOAM_HEADERS=<folder>          a folder that holds src/<library>/lnInclude
-#            else $WM_PROJECT_DIR, when it holds src/           libraries from $FOAM_LIBBIN and $FOAM_LIBBIN/$FOAM_MPI
-#            else build/toolchain/openfoam                      made by prepare_openfoam; libraries from the system
+# Headers    cmake -DHIMFOAM_OPENFOAM_HEADERS=<folder>, a folder that holds src/<library>/lnInclude,
+#            else $WM_PROJECT_DIR, when it holds src/ and $FOAM_LIBBIN its libraries (an ordinary installation),
+#            else build/toolchain/openfoam, made by prepare_openfoam.
+# Libraries  $FOAM_LIBBIN/$FOAM_MPI and $FOAM_LIBBIN where these are set, else (and for prepared headers) the system's.
 # To use one more library, add its line to openfoam_libraries.txt and run Allrun (or prepare_openfoam) again.
 
 set(HIMFOAM_OPENFOAM_HEADERS "" CACHE PATH "Folder that holds OpenFOAM's src/<library>/lnInclude (empty: look for it)")
 set(OpenFOAM_FOUND FALSE)
+set(OpenFOAM_PREPARED_TREE ${CMAKE_BINARY_DIR}/toolchain/openfoam)
 
 function(openfoam_find_tree result)
     if(HIMFOAM_OPENFOAM_HEADERS)
         set(candidates ${HIMFOAM_OPENFOAM_HEADERS})
     else()
-        set(candidates $ENV{WM_PROJECT_DIR} ${CMAKE_BINARY_DIR}/toolchain/openfoam)
+        set(candidates ${OpenFOAM_PREPARED_TREE})
+        if(EXISTS $ENV{FOAM_LIBBIN}/libOpenFOAM.so)
+            list(PREPEND candidates $ENV{WM_PROJECT_DIR})
+        endif()
     endif()
     foreach(candidate IN LISTS candidates)
         if(EXISTS ${candidate}/src/OpenFOAM/lnInclude/argList.H)
@@ -45,13 +50,14 @@ function(openfoam_read_api tree result)
     set(${result} "${api}" PARENT_SCOPE)
 endfunction()
 
-# find_library in the OpenFOAM installation first, then in the system's folders; the answer is not cached, because the
-# environment may change between two configurations of one build folder.
+# Full path of a library. The answer is not cached, because the environment may change between two configurations of one
+# build folder. Either the installation's folders are searched or the system's: two OpenFOAM versions must not be mixed.
 function(openfoam_find_library name result)
     unset(found)
-    find_library(found NAMES ${name} NO_CACHE
-        PATHS $ENV{FOAM_LIBBIN} $ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI} $ENV{FOAM_LIBBIN}/sys-openmpi NO_DEFAULT_PATH)
-    if(NOT found)
+    if(DEFINED ENV{FOAM_LIBBIN} AND NOT OpenFOAM_TREE STREQUAL OpenFOAM_PREPARED_TREE)
+        find_library(found NAMES ${name} NO_CACHE NO_DEFAULT_PATH
+            PATHS $ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI} $ENV{FOAM_LIBBIN})
+    else()
         find_library(found NAMES ${name} NO_CACHE)
     endif()
     set(${result} "${found}" PARENT_SCOPE)
