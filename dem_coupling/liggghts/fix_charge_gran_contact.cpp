@@ -172,9 +172,11 @@ void FixChargeGranContact::refreshWalls()
                 given[row] = transfer_.toWall()[old];
             }
         }
-        if (walls_.empty() && row < restartedToWall_.size()) {
-            given[row] = CompensatedSum(restartedToWall_[row]);
-        }
+    }
+    if (!restartedToWall_.empty() && restartedToWall_.size() == now.size()) {
+        std::transform(restartedToWall_.begin(), restartedToWall_.end(), given.begin(),
+                       [](double charge) { return CompensatedSum(charge); });
+        restartedToWall_.clear();
     }
     walls_ = std::move(now);
     transfer_.setWalls(std::move(types), std::move(transfers));

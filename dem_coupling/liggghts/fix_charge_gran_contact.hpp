@@ -90,7 +90,7 @@ private:
     bool enabled_;
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;
-    std::vector<double> restartedToWall_;
+    std::vector<double> restartedToWall_;   ///< from a restart file, until all of its walls are defined
     double pairsBegun_ = 0;
     double wallContactsBegun_ = 0;
     double curvature_ = 0;

@@ -4,10 +4,9 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "update.h"
 
-#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 namespace him {
 namespace {
@@ -89,7 +88,7 @@ void FixChargeGranContact::write_restart(FILE* file)
     if (comm->me != 0) {
         return;
     }
-    std::vector<double> state{total.inserted};
+    std::vector<double> state{total.inserted, static_cast<double>(total.toWall.size())};
     state.insert(state.end(), total.toWall.begin(), total.toWall.end());
     const int bytes = static_cast<int>(state.size() * sizeof(double));
     fwrite(&bytes, sizeof(int), 1, file);
@@ -103,9 +102,9 @@ void FixChargeGranContact::restart(char* buffer)
         return;
     }
     const auto* state = reinterpret_cast<const double*>(buffer);
-    const std::vector<ListedWall> walls = listWalls(lmp);
     inserted_ = CompensatedSum(state[0]);
-    restartedToWall_.assign(state + 1, state + 1 + walls.size());
+    restartedToWall_.assign(state + 2, state + 2 + static_cast<std::size_t>(state[1]));
+    refreshWalls();
 }
 
 }  // namespace him
