@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checks/caseChecks.H"
+
+#include "settings/checkedDictionary.H"
+#include "settings/foamExceptions.H"
+
+#include "OSspecific.H"
+#include "coupledPolyPatch.H"
+#include "emptyPolyPatch.H"
+#include "fvSchemes.H"
+#include "gradScheme.H"
+#include "laplacianScheme.H"
+#include "wedgePolyPatch.H"
+
+namespace him {
+
+namespace {
+
+/// Units of the electric potential, V = kg m2 s-3 A-1.
+const Foam::dimensionSet volt(1, 2, -3, 0, 0, -1, 0);
+
+/// Allowed shortfall of the cutoff against the cell diagonal, for round-off in the mesh points.
+constexpr double diagonalTolerance = 1e-9;
+
+bool onAllRanks(bool holds)
+{
+    return Foam::returnReduce(holds, Foam::andOp<bool>());
+}
+
+bool onAnyRank(bool holds)
+{
+    return Foam::returnReduce(holds, Foam::orOp<bool>());
+}
+
+/// Runs `action` and turns what OpenFOAM throws into a complaint. True when nothing was thrown on this rank.
+template <class Action>
+bool attempt(const std::string& where, Complaints& complaints, Action&& action)
+{
+    const foamExceptions throwing;
+    try {
+        action();
+        return true;
+    } catch (const Foam::error& error) {
+        complaints.add(where, firstLine(error));
+        return false;
+    }
+}
+
+void refuseFlatMesh(const Foam::polyMesh& mesh, Complaints& complaints)
+{
+    for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
+        if (Foam::isA<Foam::emptyPolyPatch>(patch) || Foam::isA<Foam::wedgePolyPatch>(patch)) {
+            complaints.add("constant/polyMesh/boundary: " + patch.name(),
+                           "found a patch of type " + patch.type() + ". Charges are points in three dimensions, and a mesh "
+                           "of one cell depth cannot hold their field. Use a mesh with all three directions; walls or "
+                           "cyclic patches may stand in for the missing ones.");
+        }
+    }
+}
+
+void checkSchemes(const Foam::fvMesh& mesh, Complaints& complaints)
+{
+    attempt("system/fvSchemes: laplacianSchemes", complaints, [&] {
+        Foam::fv::laplacianScheme<Foam::scalar, Foam::scalar>::New(mesh, mesh.laplacianScheme("laplacian(electricPotential)"));
+    });
+    attempt("system/fvSchemes: gradSchemes", complaints, [&] {
+        Foam::fv::gradScheme<Foam::scalar>::New(mesh, mesh.gradScheme("grad(electricPotential)"));
+    });
+}
+
+void checkSolution(const Foam::fileName& casePath, Complaints& complaints)
+{
+    checkedDictionary solution(casePath, "system/fvSolution", complaints);
+    if (!solution.readable()) {
+        return;
+    }
+    checkedDictionary solver = solution.section("solvers").section("electricPotential");
+    if (solver.readable()) {
+        std::vector<std::string> known;
+        for (const Foam::word& name : Foam::lduMatrix::solver::symMatrixConstructorTablePtr_->sortedToc()) {
+            known.push_back(name);
+        }
+        solver.oneOf("solver", known);
+        solver.positive("tolerance", 1e-6);
+    }
+    checkedDictionary corrections = solution.section("HIM", true);
+    corrections.nonNegativeInteger("nNonOrthogonalCorrectors", 0);
+    corrections.refuseUnknownEntries();
+}
+
+}  // namespace
+
+void checkControlDict(const Foam::fileName& casePath, Complaints& complaints)
+{
+    checkedDictionary control(casePath, "system/controlDict", complaints);
+    control.positive("deltaT");
+    control.number("endTime");
+    control.positive("writeInterval");
+}
+
+Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& complaints)
+{
+    bool complete = true;
+    const Foam::fileName folder = runTime.path()/runTime.constant()/Foam::polyMesh::meshSubDir;
+    if (!onAllRanks(Foam::isFile(folder/"owner"))) {
+        complaints.add("constant/polyMesh", "there is no mesh in " + folder + ", but the field method needs one. Make it with "
+                                            "blockMesh, and cut it with decomposePar for a parallel run.");
+        complete = false;
+    }
+    const std::size_t before = complaints.lines().size();
+    checkedDictionary(runTime.globalPath(), "system/fvSchemes", complaints);
+    checkSolution(runTime.globalPath(), complaints);
+    complete = complete && complaints.lines().size() == before;
+    if (!complete) {
+        return nullptr;
+    }
+
+    Foam::autoPtr<Foam::fvMesh> mesh;
+    attempt("constant/polyMesh", complaints, [&] {
+        mesh.reset(new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime,
+                                                   Foam::IOobject::MUST_READ)));
+    });
+    return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
+}
+
+std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, double permittivity, Complaints& complaints)
+{
+    const std::size_t before = complaints.lines().size();
+    refuseFlatMesh(mesh, complaints);
+    checkSchemes(mesh, complaints);
+
+    const std::string where = mesh.time().timeName() + "/electricPotential";
+    Foam::IOobject header("electricPotential", mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ);
+    if (!onAllRanks(header.typeHeaderOk<Foam::volScalarField>(true))) {
+        complaints.add(where, "there is no such field (volScalarField) at the start time. It gives the voltage of every patch.");
+    }
+    if (onAnyRank(complaints.lines().size() > before)) {
+        return nullptr;
+    }
+
+    std::unique_ptr<foamPoissonMesh> poisson;
+    attempt(where, complaints, [&] { poisson = std::make_unique<foamPoissonMesh>(mesh, permittivity); });
+    if (!onAllRanks(bool(poisson))) {
+        return nullptr;
+    }
+    if (poisson->electricPotential().dimensions() != volt) {
+        complaints.add(where + ": dimensions", "found other units than volt. Write dimensions [1 2 -3 0 0 -1 0];");
+    }
+    return poisson;
+}
+
+void checkCutoff(const FieldSettings& settings, const foamPoissonMesh& mesh, Complaints& complaints)
+{
+    const double diagonal = mesh.largestCellDiagonal();
+    const bool read = settings.nearCutoff > 0;
+    if (read && FieldMethod::needsCutoff(settings.method) && settings.nearCutoff < diagonal * (1 - diagonalTolerance)) {
+        complaints.add("constant/electrostaticProperties: " + settings.method + "Coeffs: nearCutoff",
+                       shown(settings.nearCutoff) + " m is below the largest cell diagonal, " + shown(diagonal)
+                           + " m. Pairs inside one cell would be missed. Use at least " + shown(diagonal)
+                           + ", or refine the mesh.");
+    }
+}
+
+void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh, Complaints& complaints)
+{
+    const std::string where = "constant/couplingProperties: walls: ";
+    for (const auto& [wall, target] : settings.walls) {
+        if (target == noTransfer) {
+            continue;
+        }
+        if (!mesh) {
+            if (target != grounded) {
+                complaints.add(where + wall, "unknown target `" + target + "`; fieldMethod " + settings.field.method
+                                             + " reads no mesh, so the known ones are grounded, noTransfer.");
+            }
+            continue;
+        }
+        std::vector<std::string> known;
+        for (const Foam::polyPatch& patch : mesh->mesh().boundaryMesh()) {
+            if (!Foam::isA<Foam::coupledPolyPatch>(patch)) {
+                known.push_back(patch.name());
+            }
+        }
+        const Foam::label patch = mesh->mesh().boundaryMesh().findPatchID(target);
+        if (patch < 0 || mesh->electricPotential().boundaryField()[patch].coupled()) {
+            complaints.add(where + wall, "unknown target `" + target + "`; known: the patches " + joined(known)
+                                         + ", and noTransfer.");
+        } else if (!mesh->electricPotential().boundaryField()[patch].fixesValue()) {
+            const std::string type = mesh->electricPotential().boundaryField()[patch].type();
+            complaints.add(where + wall, "the potential on patch " + target + " is " + type + ", which does not fix a voltage. "
+                                         "Charge on insulating walls is not modelled: give the patch a fixedValue in "
+                                         "electricPotential, or map the wall to noTransfer.");
+        }
+    }
+}
+
+}  // namespace him

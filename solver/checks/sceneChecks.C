@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checks/caseChecks.H"
+
+#include "settings/checkedDictionary.H"
+
+#include "dem_coupling/exchange/mesh_locator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace him {
+
+namespace {
+
+/// deltaT/timeStep may differ from an integer by this much.
+constexpr double ratioTolerance = 1e-9;
+
+/// A net charge above this share of all charges counts as one.
+constexpr double neutrality = 1e-9;
+
+/// How many particles outside the mesh are named by each rank.
+constexpr std::size_t namedParticles = 3;
+
+std::string shownBox(const Box& box)
+{
+    const auto corner = [](const Vector3& p) {
+        return "(" + shown(p.x()) + " " + shown(p.y()) + " " + shown(p.z()) + ")";
+    };
+    return corner(box.lower) + " to " + corner(box.upper) + " m";
+}
+
+std::vector<std::string> namesOf(const std::vector<DemWall>& walls)
+{
+    std::vector<std::string> names;
+    std::transform(walls.begin(), walls.end(), std::back_inserter(names), [](const DemWall& wall) { return wall.name; });
+    return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void refuseParticlesOutside(const DemParticles& particles, const foamPoissonMesh& mesh, MPI_Comm communicator,
+                            Complaints& complaints)
+{
+    MeshLocator locator(mesh, communicator);
+    locator.locate(particles.position);
+    std::string named;
+    std::size_t outside = 0;
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!locator.inMesh(row) && ++outside <= namedParticles) {
+            const auto p = particles.position.row(row);
+            named += (named.empty() ? "" : ", ") + std::string("particle ")
+                     + std::to_string(particles.tag[static_cast<std::size_t>(row)]) + " at (" + shown(p[0]) + " " + shown(p[1])
+                     + " " + shown(p[2]) + ") m";
+        }
+    }
+    if (outside > 0) {
+        complaints.add("DEM scene", std::to_string(outside) + " particle(s) lie outside the mesh: " + named
+                                    + (outside > namedParticles ? ", ..." : "") + ". The mesh covers "
+                                    + shownBox(mesh.globalBounds()) + ". Move them or enlarge the mesh, or write "
+                                    "particlesOutsideMesh excluded; in constant/couplingProperties.");
+    }
+}
+
+void refuseChargeWithoutVoltage(const caseSettings& settings, const DemPort& dem, const DemParticles& particles,
+                                MPI_Comm communicator, Complaints& complaints)
+{
+    std::array<double, 2> sums{particles.charge.sum(), particles.charge.abs().sum()};
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
+    const bool wallsGiveCharge = dem.charging() && std::any_of(settings.walls.begin(), settings.walls.end(), [](const auto& wall) {
+        return wall.second != noTransfer;
+    });
+    if (std::abs(sums[0]) > neutrality * sums[1] || wallsGiveCharge) {
+        complaints.add("electricPotential", "no patch fixes the voltage, but the particles "
+                                            + (wallsGiveCharge ? std::string("will be charged at walls")
+                                                               : "carry a net charge of " + shown(sums[0]) + " C")
+                                            + ", and its field lines need somewhere to end. Give one patch a fixedValue.");
+    }
+}
+
+}  // namespace
+
+long demStepsPerUpdate(double deltaT, double timeStep, Complaints& complaints)
+{
+    const double ratio = deltaT / timeStep;
+    const double nearest = std::max(1.0, std::round(ratio));
+    if (std::abs(ratio - nearest) > ratioTolerance) {
+        complaints.add("system/controlDict: deltaT",
+                       shown(deltaT, 12) + " s is not a multiple of the DEM time step, " + shown(timeStep, 12)
+                           + " s (timestep in the DEM script); the ratio is " + shown(ratio, 12)
+                           + ". The nearest allowed deltaT is " + shown(nearest * timeStep, 15) + ".");
+        return 0;
+    }
+    return static_cast<long>(nearest);
+}
+
+void checkWalls(const caseSettings& settings, const DemPort& dem, Complaints& complaints)
+{
+    const std::string where = "constant/couplingProperties: walls";
+    const std::vector<std::string> demNames = namesOf(dem.walls());
+    std::vector<std::string> mapped;
+    for (const auto& [wall, target] : settings.walls) {
+        mapped.push_back(wall);
+        if (!contains(demNames, wall)) {
+            complaints.add(where + ": " + wall, "the DEM script has no wall of this name; it has: "
+                                                + (demNames.empty() ? "none" : joined(demNames)) + ".");
+        }
+    }
+    std::vector<std::string> unmapped;
+    std::copy_if(demNames.begin(), demNames.end(), std::back_inserter(unmapped),
+                 [&](const std::string& name) { return !contains(mapped, name); });
+    if (!unmapped.empty()) {
+        complaints.add(where, "the DEM wall(s) " + joined(unmapped) + " are not in the table. Map each one to "
+                              + (settings.needsMesh ? "a patch" : "grounded") + " or to noTransfer.");
+    }
+}
+
+void checkParticlesInMesh(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh& mesh,
+                          MPI_Comm communicator, Complaints& complaints)
+{
+    DemParticles particles;
+    dem.particles(particles);
+    if (!mesh.globalBounds().overlaps(dem.box())) {
+        complaints.add("constant/polyMesh", "the mesh, " + shownBox(mesh.globalBounds()) + ", and the DEM box, "
+                                            + shownBox(dem.box()) + ", do not overlap. Check the units of both (metres).");
+    } else if (settings.field.outsideMesh == OutsideMesh::error) {
+        refuseParticlesOutside(particles, mesh, communicator, complaints);
+    }
+    if (!mesh.potentialIsFixed()) {
+        refuseChargeWithoutVoltage(settings, dem, particles, communicator, complaints);
+    }
+}
+
+}  // namespace him

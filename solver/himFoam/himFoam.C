@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/*---------------------------------------------------------------------------*\
+Application
+    himFoam
+
+Description
+    Charged particles: DEM by LIGGGHTS, contact charging, and the electric
+    field by a mesh (Poisson's equation with near sum and correction, HIM) or
+    by pair sums, coupled once per field update deltaT.
+
+Usage
+    himFoam [-case DIR] [-parallel] [-dry-run]
+
+    -dry-run checks the whole case, the DEM script included, and stops before
+    the first step. Everything that is wrong is listed at once, in three
+    stages; the exit code is then 1. See solver/doc/himFoam.md for all entries.
+
+SourceFiles
+    himFoam.C
+\*---------------------------------------------------------------------------*/
+#include "checks/caseChecks.H"
+#include "output/chargeTable.H"
+#include "output/particleWriter.H"
+#include "output/runReport.H"
+#include "parallel/session.H"
+
+#include "OSspecific.H"
+#include "argList.H"
+#include "profiling.H"
+
+#include <cstdio>
+
+namespace him {
+
+namespace {
+
+/// The case with everything that it needs, open and checked.
+struct scene {
+    caseSettings settings;
+    Foam::autoPtr<Foam::Time> runTime;
+    Foam::autoPtr<Foam::fvMesh> mesh;
+    std::unique_ptr<foamPoissonMesh> poisson;
+    std::unique_ptr<DemPort> dem;
+    long demSteps = 0;
+};
+
+void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
+{
+    const Foam::fileName casePath = args.rootPath()/args.globalCaseName();
+    Complaints complaints;
+    checkControlDict(casePath, complaints);
+    const bool timeOpens = complaints.none();
+    s.settings = readCaseSettings(casePath, complaints);
+    if (timeOpens) {
+        s.runTime.reset(new Foam::Time(Foam::Time::controlDictName, args));
+        if (s.settings.needsMesh) {
+            s.mesh = openMesh(s.runTime(), complaints);
+        }
+    }
+    if (s.mesh.valid()) {
+        s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints);
+    }
+    if (s.poisson) {
+        checkCutoff(s.settings.field, *s.poisson, complaints);
+    }
+    if (s.poisson || !s.settings.needsMesh) {
+        checkWallTargets(s.settings, s.poisson.get(), complaints);
+    }
+    stopOnComplaints(complaints, "Dictionaries, mesh and fields", communicator);
+}
+
+void openDem(scene& s, MPI_Comm communicator)
+{
+    const Foam::fileName casePath = s.runTime().globalPath();
+    const Foam::fileName script(s.settings.demScript);
+    Foam::Info << "LIGGGHTS reads " << script << Foam::endl;
+    s.dem = openLiggghts({script, casePath, script.path()/"log.liggghts"}, communicator);
+
+    Complaints complaints = s.dem->check();
+    s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);
+    checkWalls(s.settings, *s.dem, complaints);
+    if (s.poisson) {
+        checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
+    }
+    stopOnComplaints(complaints, "Case and DEM script together", communicator);
+    printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);
+}
+
+std::unique_ptr<FieldMethod> handSettingsTo(const scene& s, MPI_Comm communicator, PhaseTimes& times)
+{
+    std::vector<WallRole> roles;
+    for (const auto& [wall, target] : s.settings.walls) {
+        roles.push_back({wall, target != noTransfer});
+    }
+    auto method = FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
+    s.dem->setWallRoles(roles);
+    s.dem->setWallContactField(s.settings.wallContactField);
+    s.dem->setPermittivity(s.settings.field.permittivity);
+    s.dem->setPartnerCutoff(method->partnerCutoff());
+    return method;
+}
+
+void write(const scene& s, const CoupledStep& step, particleWriter& particles, PhaseTimes& times)
+{
+    const PhaseTimer timer(times, Phase::output);
+    particles.write(step.particles(), step.field().field);
+    if (s.settings.demCheckpoint) {
+        const Foam::fileName folder = Foam::fileName(s.settings.demScript).path()/"restart";
+        Foam::mkDir(folder);
+        s.dem->writeCheckpoint(folder/s.runTime().timeName());
+    }
+}
+
+void run(scene& s, MPI_Comm communicator)
+{
+    Foam::Time& runTime = s.runTime();
+    PhaseTimes times;
+    const auto method = handSettingsTo(s, communicator, times);
+    CoupledStep step(*s.dem, *method, communicator, times);
+    const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
+    chargeTable charge(runTime, s.dem->walls());
+    runReport report(runTime, times, s.settings.logInterval);
+
+    Foam::Info << "\nStarting time loop\n" << Foam::endl;
+    step.start();
+    charge.write(runTime.value(), step.summary(), step.books());
+    while (runTime.loop()) {
+        report.beginStep();
+        step.advance(s.demSteps);
+        if (runTime.timeIndex() % s.settings.chargeInterval == 0) {
+            charge.write(runTime.value(), step.summary(), step.books());
+        }
+        runTime.write();
+        if (runTime.writeTime()) {
+            write(s, step, *particles, times);
+        }
+        report.endStep(step);
+    }
+    report.printSummary(step, *s.dem, communicator);
+    Foam::Info << "End\n" << Foam::endl;
+}
+
+}  // namespace
+
+}  // namespace him
+
+int main(int argc, char* argv[])
+{
+    // LIGGGHTS may end the process right after its message, which must not get lost in a buffer.
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+    Foam::argList::addNote("Charged particles: DEM by LIGGGHTS, contact charging, electric field by HIM or pair sums.");
+    Foam::argList::addBoolOption("dry-run", "Check the whole case and stop before the first step");
+    Foam::argList args(argc, argv);
+    if (!args.checkRootCase()) {
+        Foam::FatalError.exit();
+    }
+    const MPI_Comm communicator = him::openSession();
+    try {
+        him::scene scene;
+        him::openCase(args, scene, communicator);
+        him::openDem(scene, communicator);
+        if (args.found("dry-run")) {
+            Foam::Info << "Dry run: the case is fine; stopping before the first step.\n" << Foam::endl;
+        } else {
+            him::run(scene, communicator);
+        }
+    } catch (const std::exception& failure) {
+        him::stopOnFailure(failure.what(), communicator);
+    }
+    return 0;
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output/chargeTable.H"
+
+#include "OSspecific.H"
+#include "Pstream.H"
+
+#include <cmath>
+
+namespace him {
+
+chargeTable::chargeTable(const Foam::Time& runTime, const std::vector<DemWall>& walls) : walls_(walls.size())
+{
+    if (!Foam::Pstream::master()) {
+        return;
+    }
+    const Foam::fileName folder = runTime.globalPath()/"postProcessing"/"charge"/runTime.timeName();
+    Foam::mkDir(folder);
+    file_.open(folder/"charge.dat");
+    file_.precision(12);
+    file_ << "# Charge on the particles and given to the walls since the start. SI units: s, C, V/m, J.\n"
+          << "# min, mean, max: of one particle. A column named after a DEM wall: charge given to it.\n"
+          << "# closureError: what the charge books lack. energy: nan when the field method has no potential.\n"
+          << "# Time total min mean max";
+    for (const DemWall& wall : walls) {
+        file_ << ' ' << wall.name;
+    }
+    file_ << " inserted removed leaked breakdown closureError largestField energy" << std::endl;
+}
+
+void chargeTable::write(double time, const StepSummary& summary, const ChargeBooks& books)
+{
+    if (!file_.is_open()) {
+        return;
+    }
+    const double mean = summary.particles > 0 ? summary.totalCharge / static_cast<double>(summary.particles) : 0;
+    file_ << time << ' ' << summary.totalCharge << ' ' << summary.smallestCharge << ' ' << mean << ' '
+          << summary.largestCharge;
+    const ChargeMovements& moved = books.movements();
+    for (std::size_t wall = 0; wall < walls_; ++wall) {
+        file_ << ' ' << (moved.toWall.empty() ? 0 : moved.toWall[wall]);  // empty until something has moved
+    }
+    file_ << ' ' << moved.inserted << ' ' << moved.removed << ' ' << moved.leaked << ' ' << moved.breakdown << ' '
+          << books.closureError() << ' ' << summary.largestField << ' ';
+    if (std::isnan(summary.energy)) {
+        file_ << "nan";
+    } else {
+        file_ << summary.energy;
+    }
+    file_ << std::endl;
+}
+
+}  // namespace him

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output/runReport.H"
+#include "settings/checkedDictionary.H"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace him {
+
+namespace {
+
+struct wallRow {
+    std::string wall, shape, target, kind, model, charging;
+};
+
+/// "grounded conductor", "conductor at 5 V", "conductor at -5 to 5 V". Collective.
+std::string kindOf(const Foam::fvPatchScalarField& voltage)
+{
+    const double lowest = Foam::gMin(voltage);
+    const double highest = Foam::gMax(voltage);
+    if (lowest == 0 && highest == 0) {
+        return "grounded conductor";
+    }
+    return "conductor at " + shown(lowest) + (highest > lowest ? " to " + shown(highest) : "") + " V";
+}
+
+wallRow rowOf(const DemWall& wall, const std::string& target, const DemPort& dem, const foamPoissonMesh* mesh)
+{
+    wallRow row{wall.name, wall.shape, target, "", wall.chargingModel ? "charge" : "no charge", "yes"};
+    if (target == noTransfer) {
+        row.target = "-";
+        row.kind = "no transfer";
+    } else if (!mesh) {
+        row.kind = "grounded conductor";
+    } else {
+        const Foam::label patch = mesh->mesh().boundaryMesh().findPatchID(target);
+        row.kind = kindOf(mesh->electricPotential().boundaryField()[patch]);
+    }
+    if (target == noTransfer || !wall.chargingModel || !dem.charging()) {
+        row.charging = "no";
+    }
+    return row;
+}
+
+std::string wallTable(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh)
+{
+    std::ostringstream table;
+    const auto line = [&table](const wallRow& row) {
+        table << "    " << std::left << std::setw(16) << row.wall << std::setw(12) << row.shape << std::setw(16) << row.target
+              << std::setw(28) << row.kind << std::setw(12) << row.model << row.charging << '\n';
+    };
+    line({"wall", "shape", "patch", "kind", "model", "charging"});
+    for (const DemWall& wall : dem.walls()) {
+        const auto entry = std::find_if(settings.walls.begin(), settings.walls.end(),
+                                        [&](const auto& mapped) { return mapped.first == wall.name; });
+        line(rowOf(wall, entry->second, dem, mesh));
+    }
+    return table.str();
+}
+
+}  // namespace
+
+void printScene(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh, double deltaT, long demSteps)
+{
+    using Foam::Info;
+    const FieldSettings& field = settings.field;
+    Info << "\nWalls\n" << wallTable(settings, dem, mesh).c_str() << "\nContact charging\n" << dem.chargingDescription().c_str()
+         << "\n    field at wall contacts: " << (settings.wallContactField == WallContactField::total ? "total" : "self")
+         << "\n\nField method " << field.method.c_str();
+    if (FieldMethod::needsCutoff(field.method)) {
+        Info << ", nearCutoff " << field.nearCutoff << " m";
+    }
+    if (mesh) {
+        Info << ", largest cell diagonal " << mesh->largestCellDiagonal() << " m";
+    }
+    const Vector3& e = field.externalField;
+    Info << ", permittivity " << field.permittivity << " F/m, external field (" << e.x() << ' ' << e.y() << ' ' << e.z()
+         << ") V/m\n\nClocks: field update every " << deltaT << " s = " << Foam::label(demSteps) << " DEM steps of "
+         << dem.timeStep() << " s\n";
+    if (dem.ranBeforeHandOver()) {
+        Info << "The DEM script ran steps of its own before the hand-over: with field and charging off.\n";
+    }
+    Info << Foam::endl;
+}
+
+}  // namespace him
