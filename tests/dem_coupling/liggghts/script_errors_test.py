@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A wrong script gets one clear sentence, also when the output goes to a file."""
+import unittest
+
+from scene import PTFE, Run, script
+
+BALL = [(0.0, 0.0, 2e-3, 0.0, 0.0, -1.0, 0.0)]
+WALL = "fix floor all wall/gran MODEL primitive type 2 zplane 0.0"
+GOOD = "fix tribo all charge/gran/contact pair 1 1 none pair 1 2 gamma -1e6 kappa 10"
+
+
+class ScriptErrors(unittest.TestCase):
+    def refused(self, text, charging, **options):
+        run = Run(script(BALL, WALL, charging, **options), 1)
+        self.assertNotEqual(run.code, 0, run.out[-800:])
+        self.assertIn(text, run.out)
+
+    def test_the_good_script_runs(self):
+        run = Run(script(BALL, WALL, GOOD), 1)
+        self.assertEqual(run.code, 0, run.out[-800:])
+
+    def test_unknown_keywords_list_the_known_ones(self):
+        self.refused("unknown keyword 'gama'; known: pair, area, reloading, curvature", GOOD + " gama 3")
+        self.refused("unknown contact area law \"hert\"; known: hertz, doubled", GOOD + " area hert")
+        self.refused("unknown reloading 'never'; known: counted, beyondMaximum", GOOD + " reloading never")
+        self.refused("after 'pair I J' comes 'gamma <V/m> kappa <->' or 'none', found 'kappa'",
+                     "fix tribo all charge/gran/contact pair 1 1 kappa 3")
+
+    def test_missing_words_say_what_is_missing(self):
+        self.refused("something is missing after 'kappa'", "fix tribo all charge/gran/contact pair 1 2 gamma 1 kappa")
+        self.refused("expected 'kappa' after 'gamma <V/m>', found 'pair'",
+                     "fix tribo all charge/gran/contact pair 1 2 gamma 1 pair 1 1 none")
+
+    def test_numbers_that_make_no_sense_are_refused(self):
+        self.refused("kappa must be a finite number >= 0, found -3", "fix tribo all charge/gran/contact pair 1 2 gamma 1 kappa -3")
+        self.refused("there is no type 7; the box has types 1 to 2", "fix tribo all charge/gran/contact pair 1 7 none")
+        self.refused("gamma must be 0 between equal types", "fix tribo all charge/gran/contact pair 1 1 gamma 5 kappa 1")
+        self.refused("pair 2 1 is given twice", GOOD + " pair 2 1 none")
+        self.refused("curvature must be an angle between 0 and 90 degrees", GOOD + " curvature 0")
+
+    def test_a_negative_radius_is_refused(self):
+        text = script(BALL, WALL, GOOD).replace(f"diameter {2 * PTFE['radius']!r}", "diameter -0.001")
+        run = Run(text, 1)
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("ERROR", run.out)
+
+    def test_charged_spheres_are_demanded_by_the_line_to_write(self):
+        text = script(BALL, WALL, GOOD).replace("atom_style hybrid granular charge", "atom_style granular")
+        run = Run(text, 1)
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("write 'atom_style hybrid granular charge'", run.out)
+
+    def test_a_contact_model_that_records_needs_the_fix(self):
+        run = Run(script(BALL, WALL, ""), 1, thermo="ke")
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("contact model 'cohesion charge' needs a 'fix <id> all charge/gran/contact ...'", run.out)
+
+    def test_a_second_charging_fix_is_refused(self):
+        self.refused("there is already a fix charge/gran/contact", GOOD + "\nfix again all charge/gran/contact pair 1 1 none")
+
+    def test_an_unknown_contact_model_stops_the_run(self):
+        run = Run(script(BALL, WALL.replace("MODEL", "model thornton_ning cohesion charge"), GOOD,
+                         model="model thornton_ning tangential history"), 1)
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("ERROR", run.out)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
