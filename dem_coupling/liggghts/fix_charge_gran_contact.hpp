@@ -48,6 +48,8 @@ public:
     /// Sums over ranks. Collective.
     ChargeMovements movements() const;
     ContactCounts contacts() const;
+    /// Particles that appeared on this rank since the hand-over.
+    std::int64_t arrivalCount() const { return arrivalCount_; }
 
     // --- LIGGGHTS' life cycle
     int setmask() override;
@@ -86,7 +88,8 @@ private:
     std::vector<ListedWall> walls_;
     std::vector<WallRole> roles_;
     std::vector<char> booked_;        ///< per row: the particle's charge stands in the books
-    bool arrivals_ = false;
+    bool arrivals_ = false;           ///< some row is not booked yet
+    std::int64_t arrivalCount_ = 0;
     bool enabled_;
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;

@@ -14,6 +14,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <unistd.h>
@@ -246,7 +247,37 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field)
 
 void LiggghtsDem::run(long steps)
 {
+    const Account before = account();
     command("run " + std::to_string(steps) + " pre no post no");
+    bookRemovals(before);
+}
+
+LiggghtsDem::Account LiggghtsDem::account() const
+{
+    Account now;
+    now.particles = lmp_->atom->natoms;
+    now.arrivals = charging_ ? charging_->arrivalCount() : 0;
+    CompensatedSum charge;
+    for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+        charge += lmp_->atom->q[i];
+    }
+    now.charge = charge.value();
+    const ChargeMovements moved = movements();
+    now.moved = moved.inserted - std::accumulate(moved.toWall.begin(), moved.toWall.end(), 0.0);
+    return now;
+}
+
+void LiggghtsDem::bookRemovals(const Account& before)
+{
+    const Account now = account();
+    double local[2] = {now.charge - before.charge, static_cast<double>(now.arrivals - before.arrivals)};
+    double change[2];
+    MPI_Allreduce(local, change, 2, MPI_DOUBLE, MPI_SUM, communicator_);
+    const bool someLeft = now.particles < before.particles + static_cast<std::int64_t>(change[1]);
+    // Only then: otherwise nothing may be missing, and the books must find out by themselves.
+    if (someLeft) {
+        removed_ += now.moved - before.moved - change[0];
+    }
 }
 
 std::int64_t LiggghtsDem::particleCount() const
@@ -256,9 +287,13 @@ std::int64_t LiggghtsDem::particleCount() const
 
 ChargeMovements LiggghtsDem::movements() const
 {
-    ChargeMovements none;
-    none.toWall.assign(walls_.size(), 0.0);
-    return charging_ ? charging_->movements() : none;
+    ChargeMovements moved;
+    if (charging_) {
+        moved = charging_->movements();
+    }
+    moved.toWall.resize(walls_.size(), 0.0);
+    moved.removed = removed_;
+    return moved;
 }
 
 ContactCounts LiggghtsDem::contacts() const

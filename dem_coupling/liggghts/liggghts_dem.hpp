@@ -42,6 +42,16 @@ public:
     void writeCheckpoint(const std::string& file) override;
 
 private:
+    /// What the books need to tell how much charge left with particles that the script took out.
+    struct Account {
+        std::int64_t particles = 0;   ///< LIGGGHTS' own count, all ranks
+        std::int64_t arrivals = 0;    ///< this rank
+        double charge = 0;            ///< this rank [C]
+        double moved = 0;             ///< inserted less given to walls, all ranks [C]
+    };
+    Account account() const;
+    void bookRemovals(const Account& before);
+
     void command(const std::string& line);
     void checkContactModels(Complaints& complaints) const;
     void checkPairs(Complaints& complaints) const;
@@ -53,6 +63,7 @@ private:
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
     FixCoupleCfdEfield* field_ = nullptr;
+    double removed_ = 0;   ///< charge of particles taken out since the hand-over, all ranks [C]
 };
 
 }  // namespace him
