@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/exchange/mesh_locator.hpp"
+
+#include <cmath>
+
+namespace him {
+
+MeshLocator::MeshLocator(const PoissonMesh& mesh, MPI_Comm communicator)
+    : MeshLocator(mesh, communicator, Box(), {false, false, false})
+{
+}
+
+MeshLocator::MeshLocator(const PoissonMesh& mesh, MPI_Comm communicator, const Box& demBox, const std::array<bool, 3>& periodic)
+    : mesh_(mesh),
+      demBox_(demBox),
+      periodic_(periodic),
+      exchange_(communicator),
+      bounds_(static_cast<std::size_t>(exchange_.ranks())),
+      askedRows_(static_cast<std::size_t>(exchange_.ranks())),
+      answeredCells_(static_cast<std::size_t>(exchange_.ranks()))
+{
+    const Box bounds = mesh_.localBounds();
+    const Box own = bounds.empty() ? bounds : bounds.grownBy(1e-9 * bounds.size().norm());
+    static_assert(sizeof(Box) == 6 * sizeof(double), "a box travels as six doubles");
+    MPI_Allgather(own.lower.data(), 6, MPI_DOUBLE, bounds_.data(), 6, MPI_DOUBLE, communicator);
+}
+
+Vector3 MeshLocator::shiftIntoBox(const Vector3& position) const
+{
+    Vector3 shift = Vector3::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool stray = position[axis] < demBox_.lower[axis] || position[axis] > demBox_.upper[axis];
+        if (periodic_[static_cast<std::size_t>(axis)] && stray) {
+            const double period = demBox_.size()[axis];
+            shift[axis] = -period * std::floor((position[axis] - demBox_.lower[axis]) / period);
+        }
+    }
+    return shift;
+}
+
+void MeshLocator::locate(const Points& positions)
+{
+    const Index rows = positions.rows();
+    owner_.assign(static_cast<std::size_t>(rows), -1);
+    cell_.assign(static_cast<std::size_t>(rows), -1);
+    cellCentre_ = positions;
+
+    // Own cells first; for the rest, ask every rank whose bounds contain the point.
+    exchange_.clear(outgoing_);
+    for (auto& asked : askedRows_) {
+        asked.clear();
+    }
+    for (Index row = 0; row < rows; ++row) {
+        const Vector3 position = positions.row(row).matrix().transpose();
+        const Vector3 shift = shiftIntoBox(position);
+        const Vector3 point = position + shift;
+        const Index cell = mesh_.findCell(point);
+        if (cell >= 0) {
+            owner_[static_cast<std::size_t>(row)] = exchange_.rank();
+            cell_[static_cast<std::size_t>(row)] = cell;
+            cellCentre_.row(row) = (mesh_.cellCentre(cell) - shift).transpose().array();
+            continue;
+        }
+        for (int rank = 0; rank < exchange_.ranks(); ++rank) {
+            const auto r = static_cast<std::size_t>(rank);
+            if (rank != exchange_.rank() && bounds_[r].contains(point)) {
+                askedRows_[r].push_back(row);
+                outgoing_[r].insert(outgoing_[r].end(), {point[0], point[1], point[2]});
+            }
+        }
+    }
+    exchange_.exchange(outgoing_, incoming_);
+
+    // Answer with "held here" and the cell centre.
+    exchange_.clear(outgoing_);
+    for (std::size_t rank = 0; rank < incoming_.size(); ++rank) {
+        answeredCells_[rank].clear();
+        for (std::size_t at = 0; at < incoming_[rank].size(); at += 3) {
+            const Vector3 point(incoming_[rank][at], incoming_[rank][at + 1], incoming_[rank][at + 2]);
+            const Index cell = mesh_.findCell(point);
+            const Vector3 centre = cell >= 0 ? mesh_.cellCentre(cell) : point;
+            answeredCells_[rank].push_back(cell);
+            outgoing_[rank].insert(outgoing_[rank].end(), {cell >= 0 ? 1.0 : 0.0, centre[0], centre[1], centre[2]});
+        }
+        incoming_[rank].resize(4 * askedRows_[rank].size());
+    }
+    exchange_.answer(outgoing_, incoming_);
+
+    for (std::size_t rank = 0; rank < incoming_.size(); ++rank) {
+        for (std::size_t n = 0; n < askedRows_[rank].size(); ++n) {
+            const Index row = askedRows_[rank][n];
+            const double* answer = incoming_[rank].data() + 4 * n;
+            if (answer[0] == 1.0 && !inMesh(row)) {
+                owner_[static_cast<std::size_t>(row)] = static_cast<int>(rank);
+                const Vector3 centre(answer[1], answer[2], answer[3]);
+                const Vector3 shift = shiftIntoBox(positions.row(row).matrix().transpose());
+                cellCentre_.row(row) = (centre - shift).transpose().array();
+            }
+        }
+    }
+}
+
+void MeshLocator::deposit(const Scalars& charge, Scalars& cellCharge)
+{
+    exchange_.clear(outgoing_);
+    for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
+        for (const Index row : askedRows_[rank]) {
+            const bool taker = owner_[static_cast<std::size_t>(row)] == static_cast<int>(rank);
+            outgoing_[rank].push_back(taker ? charge[row] : 0.0);
+        }
+        incoming_[rank].resize(answeredCells_[rank].size());
+    }
+    exchange_.answer(outgoing_, incoming_);
+
+    cellCharge.setZero(mesh_.cellCount());
+    for (std::size_t row = 0; row < cell_.size(); ++row) {
+        if (cell_[row] >= 0) {
+            cellCharge[cell_[row]] += charge[static_cast<Index>(row)];
+        }
+    }
+    for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
+        for (std::size_t n = 0; n < answeredCells_[rank].size(); ++n) {
+            if (answeredCells_[rank][n] >= 0) {
+                cellCharge[answeredCells_[rank][n]] += incoming_[rank][n];
+            }
+        }
+    }
+}
+
+void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Points& values)
+{
+    exchange_.clear(outgoing_);
+    for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
+        for (const Index cell : answeredCells_[rank]) {
+            const Vector3 value = cell >= 0 ? valueOfCell(cell) : Vector3::Zero().eval();
+            outgoing_[rank].insert(outgoing_[rank].end(), {value[0], value[1], value[2]});
+        }
+        incoming_[rank].resize(3 * askedRows_[rank].size());
+    }
+    exchange_.answer(outgoing_, incoming_);
+
+    values.setZero(static_cast<Index>(owner_.size()), 3);
+    for (std::size_t row = 0; row < cell_.size(); ++row) {
+        if (cell_[row] >= 0) {
+            values.row(static_cast<Index>(row)) = valueOfCell(cell_[row]).transpose().array();
+        }
+    }
+    for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
+        for (std::size_t n = 0; n < askedRows_[rank].size(); ++n) {
+            const Index row = askedRows_[rank][n];
+            if (owner_[static_cast<std::size_t>(row)] == static_cast<int>(rank)) {
+                const double* value = incoming_[rank].data() + 3 * n;
+                values.row(row) << value[0], value[1], value[2];
+            }
+        }
+    }
+}
+
+}  // namespace him
