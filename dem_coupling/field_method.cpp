@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/field_method.hpp"
+
+#include "dem_coupling/field_methods/direct_truncation.hpp"
+#include "dem_coupling/field_methods/him.hpp"
+#include "dem_coupling/field_methods/pairwise_sum.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace him {
+
+namespace {
+
+struct Method {
+    std::string name;
+    bool needsMesh;
+    bool needsCutoff;
+};
+
+const std::vector<Method>& methods()
+{
+    static const std::vector<Method> list{
+        {"pairwiseSum", false, false},
+        {"directTruncation", false, true},
+        {"him", true, true},
+    };
+    return list;
+}
+
+const Method* find(const std::string& name)
+{
+    const auto found = std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
+    return found == methods().end() ? nullptr : &*found;
+}
+
+std::string unknownName(const std::string& name)
+{
+    std::string known;
+    for (const Method& method : methods()) {
+        known += (known.empty() ? "" : ", ") + method.name;
+    }
+    return "unknown field method \"" + name + "\"; known: " + known;
+}
+
+const Method& get(const std::string& name)
+{
+    const Method* method = find(name);
+    if (!method) {
+        throw std::invalid_argument(unknownName(name));
+    }
+    return *method;
+}
+
+constexpr const char* file = "electrostaticProperties";
+
+void checkCutoff(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox, const std::array<bool, 3>& periodic,
+                 Complaints& complaints)
+{
+    const std::string entry = std::string(file) + "." + settings.method + "Coeffs.nearCutoff";
+    const double cutoff = settings.nearCutoff;
+    std::ostringstream text;
+    if (!(cutoff > 0)) {
+        text << cutoff << " m is not a positive length";
+        complaints.add(entry, text.str());
+        return;
+    }
+    if (mesh) {
+        const double diagonal = mesh->largestCellDiagonal();
+        if (cutoff < diagonal * (1 - 1e-9)) {
+            text << cutoff << " m is below the largest cell diagonal, " << diagonal
+                 << " m. Pairs inside one cell would be missed. Use at least " << diagonal << ", or refine the mesh";
+            complaints.add(entry, text.str());
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (periodic[static_cast<std::size_t>(axis)] && cutoff > demBox.size()[axis]) {
+            std::ostringstream tooLong;
+            tooLong << cutoff << " m is longer than the periodic DEM box in " << "xyz"[axis] << ", " << demBox.size()[axis]
+                    << " m. Use at most that, or a larger box";
+            complaints.add(entry, tooLong.str());
+        }
+    }
+}
+
+}  // namespace
+
+const std::vector<std::string>& FieldMethod::names()
+{
+    static const std::vector<std::string> list = [] {
+        std::vector<std::string> all;
+        for (const Method& method : methods()) {
+            all.push_back(method.name);
+        }
+        return all;
+    }();
+    return list;
+}
+
+bool FieldMethod::needsMesh(const std::string& name) { return get(name).needsMesh; }
+
+bool FieldMethod::needsCutoff(const std::string& name) { return get(name).needsCutoff; }
+
+Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox,
+                              const std::array<bool, 3>& periodic)
+{
+    Complaints complaints;
+    if (!(settings.permittivity > 0)) {
+        std::ostringstream text;
+        text << "a permittivity of " << settings.permittivity << " F/m is not positive";
+        complaints.add(std::string(file) + ".relativePermittivity", text.str());
+    }
+    const std::string entry = std::string(file) + ".fieldMethod";
+    const Method* method = find(settings.method);
+    if (!method) {
+        complaints.add(entry, unknownName(settings.method));
+        return complaints;
+    }
+    if (method->needsMesh && !mesh) {
+        complaints.add(entry, settings.method + " needs a mesh, and the case has none. Make one in constant/polyMesh, or use "
+                              "pairwiseSum or directTruncation");
+    }
+    if (method->needsCutoff) {
+        checkCutoff(settings, method->needsMesh ? mesh : nullptr, demBox, periodic, complaints);
+    } else if (periodic[0] || periodic[1] || periodic[2]) {
+        complaints.add(entry, settings.method + " sums every pair once, and in a periodic DEM box every charge has infinitely "
+                              "many copies. Use a DEM box without periodic directions, or another field method");
+    }
+    return complaints;
+}
+
+std::unique_ptr<FieldMethod> FieldMethod::create(const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
+                                                 const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times)
+{
+    const Complaints complaints = check(settings, mesh, demBox, periodic);
+    if (!complaints.none()) {
+        throw std::invalid_argument(complaints.text());
+    }
+    if (settings.method == "pairwiseSum") {
+        return std::make_unique<PairwiseSum>(settings, communicator, times);
+    }
+    if (settings.method == "directTruncation") {
+        return std::make_unique<DirectTruncation>(settings, demBox, periodic, communicator, times);
+    }
+    return std::make_unique<Him>(settings, *mesh, demBox, periodic, communicator, times);
+}
+
+}  // namespace him

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/phase_times.hpp"
+#include "dem_coupling/poisson_mesh.hpp"
+
+#include <memory>
+#include <mpi.h>
+#include <string>
+#include <vector>
+
+namespace him {
+
+/// What to do with a particle that the DEM still has but that no mesh cell holds.
+enum class OutsideMesh {
+    error,     ///< stop and name the particle
+    excluded   ///< it neither gives charge to the mesh nor sees the mesh field; counted and reported
+};
+
+/// Field at this rank's particles, in the order of DemParticles.
+struct ParticleField {
+    Points field;                 ///< [V/m], own self-field excluded
+    Scalars potential;            ///< [V], without the own Coulomb term; empty when the method has none
+    double excludedCharge = 0;    ///< [C] of particles outside the mesh, all ranks
+    std::int64_t excludedCount = 0;
+    std::int64_t pairs = 0;       ///< near pairs, all ranks
+    /// Electrostatic energy [J] of this rank's particles: 1/2 sum q V of the charges' own potential plus sum q V of the
+    /// external field; NaN when the method has no potential.
+    double energy = 0;
+};
+
+/// Settings of every method; a method reads only what it knows.
+struct FieldSettings {
+    std::string method;                  ///< run-time selected name
+    double nearCutoff = 0;               ///< r_c [m]
+    double permittivity = 0;             ///< eps [F/m]
+    Vector3 externalField = Vector3::Zero();  ///< [V/m], added to every method's field
+    OutsideMesh outsideMesh = OutsideMesh::error;
+};
+
+/// A way to get the field at every particle from all charges. compute() is collective.
+class FieldMethod {
+public:
+    virtual ~FieldMethod() = default;
+
+    /// Known names, in the order of the documentation.
+    static const std::vector<std::string>& names();
+    static bool needsMesh(const std::string& name);
+    static bool needsCutoff(const std::string& name);
+
+    /// Everything that is wrong with these settings: unknown name, cutoff not positive, below the largest cell diagonal
+    /// or above a period, periodic box where the method has none. Not collective.
+    static Complaints check(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox,
+                            const std::array<bool, 3>& periodic);
+
+    /// The method of that name. Throws std::invalid_argument with all complaints of check(); an unknown name lists the
+    /// known ones. `mesh` may be null for a method that needs none and outlives the method. Collective.
+    static std::unique_ptr<FieldMethod> create(const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
+                                               const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times);
+
+    /// Field of all charges at these particles, plus the external field. Throws std::runtime_error, the same on every
+    /// rank, when two particles share a position or one is outside a mesh that should hold it.
+    virtual void compute(const DemParticles& particles, ParticleField& result) = 0;
+
+    /// See DemPort::setPartnerCutoff.
+    virtual double partnerCutoff() const = 0;
+    virtual bool hasPotential() const = 0;
+};
+
+}  // namespace him

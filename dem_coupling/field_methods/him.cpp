@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/field_methods/him.hpp"
+
+#include "dem_coupling/field_methods/shared_steps.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+namespace him {
+
+Him::Him(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, const std::array<bool, 3>& periodic,
+         MPI_Comm communicator, PhaseTimes& times)
+    : settings_(settings),
+      mesh_(mesh),
+      communicator_(communicator),
+      times_(times),
+      locator_(mesh, communicator, demBox, periodic),
+      halo_(settings.nearCutoff, demBox, periodic, communicator),
+      near_(settings.nearCutoff, settings.permittivity)
+{
+}
+
+void Him::compute(const DemParticles& particles, ParticleField& result)
+{
+    {
+        const PhaseTimer timer(times_, Phase::exchange);
+        locator_.locate(particles.position);
+        countOutside(particles, result);
+    }
+    if (result.excludedCount > 0 && settings_.outsideMesh == OutsideMesh::error) {
+        refuseOutside(particles, result.excludedCount);
+    }
+    addMeshField(particles, result);
+    {
+        const PhaseTimer timer(times_, Phase::exchange);
+        points_.position = particles.position;
+        points_.charge = particles.charge;
+        points_.cellCentre = locator_.cellCentre();
+        halo_.extend(points_);
+        if (result.excludedCount > 0) {
+            halo_.forward(inMesh_);
+        }
+    }
+    std::string failure;
+    sums_.pairs = 0;
+    try {
+        const PhaseTimer timer(times_, Phase::near);
+        sumNear(result.excludedCount > 0);
+    } catch (const std::domain_error& error) {
+        failure = error.what();
+    }
+    result.pairs = sumPairs(sums_.pairs, failure, particles, points_.position, communicator_);
+    result.field += sums_.field;
+    result.potential.resize(0);
+    result.energy = std::numeric_limits<double>::quiet_NaN();
+    addExternalField(settings_.externalField, result);
+}
+
+void Him::countOutside(const DemParticles& particles, ParticleField& result) const
+{
+    double mine[2] = {0, 0};
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!locator_.inMesh(row)) {
+            mine[0] += 1;
+            mine[1] += particles.charge[row];
+        }
+    }
+    double all[2] = {0, 0};
+    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, communicator_);
+    result.excludedCount = static_cast<std::int64_t>(all[0]);
+    result.excludedCharge = all[1];
+}
+
+void Him::refuseOutside(const DemParticles& particles, std::int64_t count) const
+{
+    int tag = nothingToSay;
+    std::string text;
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!locator_.inMesh(row) && particles.tag[static_cast<std::size_t>(row)] < tag) {
+            tag = particles.tag[static_cast<std::size_t>(row)];
+            text = "field method him: particle " + std::to_string(tag) + " at "
+                   + describe(particles.position.row(row).matrix().transpose()) + " is in no cell of the mesh"
+                   + (count > 1 ? " (" + std::to_string(count) + " particles are not)" : "")
+                   + ". Make the mesh cover all the space that the DEM walls leave to particles, or set "
+                     "couplingProperties.particlesOutsideMesh to excluded: such particles then neither give charge to the "
+                     "mesh nor see its field";
+        }
+    }
+    throwTogether(communicator_, tag, text);
+}
+
+void Him::addMeshField(const DemParticles& particles, ParticleField& result)
+{
+    {
+        const PhaseTimer timer(times_, Phase::exchange);
+        locator_.deposit(particles.charge, cellCharge_);
+    }
+    {
+        const PhaseTimer timer(times_, Phase::poisson);
+        mesh_.solve(cellCharge_);
+    }
+    const PhaseTimer timer(times_, Phase::exchange);
+    locator_.gather([this](Index cell) { return mesh_.electricField(cell); }, result.field);  // R30
+    inMesh_.resize(particles.size());
+    for (Index row = 0; row < particles.size(); ++row) {
+        inMesh_[row] = locator_.inMesh(row) ? 1.0 : 0.0;
+    }
+}
+
+void Him::sumNear(bool someExcluded)
+{
+    if (someExcluded) {
+        sumNearWithExcluded();
+    } else {
+        near_.coulombWithoutDoubleCount(points_, sums_);
+    }
+}
+
+/// The mesh holds nothing of an excluded particle and an excluded particle sees nothing of the mesh, so R31 applies to
+/// the pairs that are both inside only; all other pairs keep their Coulomb field. Three sums, each over all pairs; their
+/// charges tell which sources act.
+void Him::sumNearWithExcluded()
+{
+    const Scalars charge = points_.charge;
+    const Index targets = points_.targets;
+
+    near_.coulomb(points_, sums_);  // excluded targets: everybody
+    const std::int64_t pairs = sums_.pairs;
+
+    points_.charge = charge * inMesh_;
+    near_.coulombWithoutDoubleCount(points_, partialSums_);  // inside targets: the sources inside
+    for (Index row = 0; row < targets; ++row) {
+        if (inMesh_[row] == 1.0) {
+            sums_.field.row(row) = partialSums_.field.row(row);
+        }
+    }
+    points_.charge = charge * (1 - inMesh_);
+    near_.coulomb(points_, partialSums_);  // inside targets: the sources outside
+    for (Index row = 0; row < targets; ++row) {
+        if (inMesh_[row] == 1.0) {
+            sums_.field.row(row) += partialSums_.field.row(row);
+        }
+    }
+    sums_.pairs = pairs;
+    points_.charge = charge;
+}
+
+}  // namespace him

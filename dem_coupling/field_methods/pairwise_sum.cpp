@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/field_methods/pairwise_sum.hpp"
+
+#include "dem_coupling/field_methods/shared_steps.hpp"
+#include "electrostatics/near_field.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+namespace him {
+
+PairwiseSum::PairwiseSum(const FieldSettings& settings, MPI_Comm communicator, PhaseTimes& times)
+    : settings_(settings), communicator_(communicator), times_(times)
+{
+}
+
+double PairwiseSum::partnerCutoff() const { return std::numeric_limits<double>::infinity(); }
+
+void PairwiseSum::passOn()
+{
+    const PhaseTimer timer(times_, Phase::exchange);
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(communicator_, &rank);
+    MPI_Comm_size(communicator_, &ranks);
+    const int next = (rank + 1) % ranks;
+    const int previous = (rank + ranks - 1) % ranks;
+    const auto swap = [&](const void* out, int outCount, void* in, int inCount, MPI_Datatype type) {
+        MPI_Sendrecv(out, outCount, type, next, 0, in, inCount, type, previous, 0, communicator_, MPI_STATUS_IGNORE);
+    };
+    const int leaving = static_cast<int>(visitors_.rows());
+    int coming = 0;
+    swap(&leaving, 1, &coming, 1, MPI_INT);
+    nextVisitors_.resize(coming, 3);
+    nextVisitorCharge_.resize(coming);
+    swap(visitors_.data(), 3 * leaving, nextVisitors_.data(), 3 * coming, MPI_DOUBLE);
+    swap(visitorCharge_.data(), leaving, nextVisitorCharge_.data(), coming, MPI_DOUBLE);
+    visitors_.swap(nextVisitors_);
+    visitorCharge_.swap(nextVisitorCharge_);
+}
+
+void PairwiseSum::compute(const DemParticles& particles, ParticleField& result)
+{
+    int ranks = 1;
+    MPI_Comm_size(communicator_, &ranks);
+    result.field.setZero(particles.size(), 3);
+    result.potential.setZero(particles.size());
+    visitors_ = particles.position;
+    visitorCharge_ = particles.charge;
+
+    std::int64_t pairs = 0;
+    std::string failure;
+    Points failedSources;
+    for (int turn = 0; turn < ranks; ++turn) {
+        if (turn > 0) {
+            passOn();
+        }
+        const PhaseTimer timer(times_, Phase::near);
+        try {
+            pairs += addAllPairs(particles.position, visitors_, visitorCharge_, turn == 0 ? 0 : -1, settings_.permittivity,
+                                 result.field, result.potential);
+        } catch (const std::domain_error& error) {
+            // Keep the ring going; all ranks stop together below.
+            failure = error.what();
+            failedSources.resize(particles.size() + (turn == 0 ? 0 : visitors_.rows()), 3);
+            failedSources.topRows(particles.size()) = particles.position;
+            if (turn > 0) {
+                failedSources.bottomRows(visitors_.rows()) = visitors_;
+            }
+        }
+    }
+    result.pairs = sumPairs(pairs, failure, particles, failedSources, communicator_);
+    addExternalField(settings_.externalField, result);
+    addExternalPotential(settings_.externalField, particles, result);
+}
+
+}  // namespace him

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/field_method.hpp"
+
+namespace him {
+
+/// `pairwiseSum` (PS): R29 over all pairs of all ranks, without cutoff, walls or periodic copies. Every rank's particles
+/// travel once around the ring of ranks; no rank ever holds more than two ranks' particles besides its own.
+class PairwiseSum : public FieldMethod {
+public:
+    PairwiseSum(const FieldSettings& settings, MPI_Comm communicator, PhaseTimes& times);
+
+    void compute(const DemParticles& particles, ParticleField& result) override;
+    double partnerCutoff() const override;
+    bool hasPotential() const override { return true; }
+
+private:
+    /// Sends the visiting particles on to the next rank and receives the previous rank's.
+    void passOn();
+
+    FieldSettings settings_;
+    MPI_Comm communicator_;
+    PhaseTimes& times_;
+    Points visitors_, nextVisitors_;
+    Scalars visitorCharge_, nextVisitorCharge_;
+};
+
+}  // namespace him
