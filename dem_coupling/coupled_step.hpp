@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/charge_books.hpp"
+#include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/field_method.hpp"
+#include "dem_coupling/phase_times.hpp"
+
+#include <mpi.h>
+
+namespace him {
+
+/// Global numbers of one field update, equal on every rank.
+struct StepSummary {
+    std::int64_t particles = 0;
+    double totalCharge = 0;       ///< [C]
+    double smallestCharge = 0;    ///< [C]
+    double largestCharge = 0;     ///< [C]
+    double largestField = 0;      ///< [V/m]
+    double energy = 0;            ///< electrostatic [J], see ParticleField::energy; NaN when the method has no potential
+    double kineticEnergy = 0;     ///< translational [J]
+    std::int64_t excludedCount = 0;  ///< particles outside the mesh
+    double excludedCharge = 0;       ///< [C]
+};
+
+/// One coupled step: DEM sub-steps under a held field, then a new field from the moved charges, then the books.
+/// Holds no physics of its own.
+class CoupledStep {
+public:
+    CoupledStep(DemPort& dem, FieldMethod& field, MPI_Comm communicator, PhaseTimes& times);
+
+    /// Tells the DEM the method's partner cutoff, computes the field of the first step, opens the books and hands over.
+    /// Call once. Throws like advance().
+    void start();
+    /// `demSteps` DEM steps, then updateField(). Throws std::runtime_error naming the particle when one is lost or
+    /// becomes NaN, and when the charge books do not close.
+    void advance(long demSteps);
+
+    const DemParticles& particles() const { return particles_; }
+    const ParticleField& field() const { return field_; }
+    const StepSummary& summary() const { return summary_; }
+    const ChargeBooks& books() const { return books_; }
+
+private:
+    void readParticles();
+    void updateField();
+    void summarise();
+
+    DemPort& dem_;
+    FieldMethod& method_;
+    MPI_Comm communicator_;
+    PhaseTimes& times_;
+    DemParticles particles_;
+    DemParticles previous_;
+    ParticleField field_;
+    StepSummary summary_;
+    ChargeBooks books_;
+    double absoluteCharge_ = 0;
+    bool booksOpen_ = false;
+};
+
+}  // namespace him
