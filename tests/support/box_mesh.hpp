@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/poisson_mesh.hpp"
+
+#include <array>
+#include <mpi.h>
+
+namespace him {
+
+/// A uniform box mesh for tests: 7-point Laplacian, walls at 0 V half a cell from the outermost centres, central
+/// gradient from face averages, as a finite-volume code with linear interpolation does on a hexahedral mesh. Solved
+/// exactly by diagonalising the operator of each direction. Cells are split over ranks in slabs along x; every rank
+/// solves the whole system.
+class BoxMesh : public PoissonMesh {
+public:
+    /// @param periodic  directions without walls; not all three
+    BoxMesh(const Box& box, const std::array<Index, 3>& cells, double permittivity, MPI_Comm communicator,
+            const std::array<bool, 3>& periodic = {false, false, false});
+
+    Box localBounds() const override;
+    Index cellCount() const override { return (last_ - first_) * cells_[1] * cells_[2]; }
+    double largestCellDiagonal() const override { return size_.norm(); }
+    Index findCell(const Vector3& point) const override;
+    Vector3 cellCentre(Index cell) const override;
+    void solve(const Scalars& cellCharge) override;
+    Vector3 electricField(Index cell) const override;
+    double potential(Index cell) const override;
+
+    double cellVolume() const { return size_.prod(); }
+    /// Sum of what the last solve() was given, over all ranks [C].
+    double chargeOnMesh() const { return chargeOnMesh_; }
+
+private:
+    using Indices = std::array<Index, 3>;
+    Indices indicesOf(Index cell) const;
+    double at(const Indices& indices) const
+    {
+        return potential_[indices[0] + cells_[0] * (indices[1] + cells_[1] * indices[2])];
+    }
+    void transform(Scalars& values, bool back) const;
+
+    Box box_;
+    Indices cells_;
+    std::array<bool, 3> periodic_;
+    double permittivity_;
+    MPI_Comm communicator_;
+    Vector3 size_;
+    Index first_ = 0, last_ = 0;                    ///< this rank's slab along x
+    std::array<Eigen::MatrixXd, 3> modes_;          ///< eigenvectors of -d2/dx2 of each direction
+    std::array<Eigen::VectorXd, 3> eigenvalues_;    ///< [1/m2]
+    Scalars potential_;                             ///< [V], all cells of all ranks
+    double chargeOnMesh_ = 0;
+};
+
+}  // namespace him
