@@ -81,6 +81,8 @@ public:
     /// Distance [m] up to which the field handed over by setField contains the Coulomb field of a particle's neighbour;
     /// infinity for a full pair sum. Needed to take the contact partner out of it.
     virtual void setPartnerCutoff(double cutoff) = 0;
+    /// Whether the DEM may take particles out during the run. If not, every missing one counts as lost.
+    virtual void allowRemovals(bool allowed) = 0;
     /// Switches field force and charging on and computes the forces of the first step. No charge moves here.
     virtual void handOver() = 0;
 
@@ -90,7 +92,9 @@ public:
     /// positions and charges that made it.
     virtual void setField(const DemParticles& particles, const Points& field) = 0;
     virtual void run(long steps) = 0;
-    virtual std::int64_t particleCount() const = 0;            ///< particles that the DEM believes to have, all ranks
+    /// Particles that there must be, all ranks: those of the hand-over and those that appeared, less those that were taken
+    /// out with permission.
+    virtual std::int64_t particleCount() const = 0;
 
     // --- the books
     virtual ChargeMovements movements() const = 0;

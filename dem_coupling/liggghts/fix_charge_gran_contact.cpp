@@ -214,7 +214,6 @@ void FixChargeGranContact::bookArrivals()
         if (!booked_[i]) {
             inserted_ += atom->q[i];
             booked_[i] = 1;
-            ++arrivalCount_;
         }
     }
     arrivals_ = false;

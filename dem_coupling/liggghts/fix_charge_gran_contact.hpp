@@ -48,8 +48,6 @@ public:
     /// Sums over ranks. Collective.
     ChargeMovements movements() const;
     ContactCounts contacts() const;
-    /// Particles that appeared on this rank since the hand-over.
-    std::int64_t arrivalCount() const { return arrivalCount_; }
 
     // --- LIGGGHTS' life cycle
     int setmask() override;
@@ -89,7 +87,6 @@ private:
     std::vector<WallRole> roles_;
     std::vector<char> booked_;        ///< per row: the particle's charge stands in the books
     bool arrivals_ = false;           ///< some row is not booked yet
-    std::int64_t arrivalCount_ = 0;
     bool enabled_;
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;

@@ -35,7 +35,7 @@ FixCoupleCfdEfield::FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* liggghts, int narg, ch
     atom->add_callback(0);
     atom->add_callback(2);
     for (int i = 0; i < atom->nlocal; ++i) {
-        set_arrays(i);
+        std::fill_n(held_[i], width, 0.0);
     }
 }
 
@@ -93,6 +93,7 @@ void FixCoupleCfdEfield::copy_arrays(int from, int to, int)
 void FixCoupleCfdEfield::set_arrays(int row)
 {
     std::fill_n(held_[row], width, 0.0);
+    ++arrivals_;
 }
 
 int FixCoupleCfdEfield::pack_exchange(int row, double* buffer)

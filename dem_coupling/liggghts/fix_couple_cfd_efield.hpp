@@ -5,6 +5,8 @@
 
 #include "fix.h"
 
+#include <cstdint>
+
 namespace him {
 
 /// fix ID group couple/cfd/efield
@@ -20,6 +22,8 @@ public:
     void setField(const Points& field);
     /// Per row, see HeldField.
     const double* const* held() const { return held_; }
+    /// Particles that appeared on this rank since this fix was made.
+    std::int64_t arrivals() const { return arrivals_; }
 
     int setmask() override;
     void setup(int) override;
@@ -36,6 +40,7 @@ public:
 
 private:
     double** held_ = nullptr;
+    std::int64_t arrivals_ = 0;
 };
 
 }  // namespace him

@@ -61,6 +61,7 @@ LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
         walls_.push_back(wall.wall);
     }
     charging_ = FixChargeGranContact::find(lmp_.get());
+    expected_ = lmp_->atom->natoms;
 }
 
 void LiggghtsDem::command(const std::string& line)
@@ -209,7 +210,9 @@ void LiggghtsDem::handOver()
         lmp_->logfile = nullptr;
     }
     // Set-up: neighbour lists, ghosts and the forces of the first step. Time does not advance.
+    const Account before = account();
     command("run 0 post no");
+    countParticles(before);
 }
 
 // ---------------------------------------------------------------------- the run
@@ -249,14 +252,13 @@ void LiggghtsDem::run(long steps)
 {
     const Account before = account();
     command("run " + std::to_string(steps) + " pre no post no");
-    bookRemovals(before);
+    countParticles(before);
 }
 
 LiggghtsDem::Account LiggghtsDem::account() const
 {
     Account now;
-    now.particles = lmp_->atom->natoms;
-    now.arrivals = charging_ ? charging_->arrivalCount() : 0;
+    now.arrivals = field_ ? field_->arrivals() : 0;
     CompensatedSum charge;
     for (int i = 0; i < lmp_->atom->nlocal; ++i) {
         charge += lmp_->atom->q[i];
@@ -267,22 +269,19 @@ LiggghtsDem::Account LiggghtsDem::account() const
     return now;
 }
 
-void LiggghtsDem::bookRemovals(const Account& before)
+/// LIGGGHTS' own count can not tell a particle that was taken out from one that was lost: it is the sum of what is there.
+void LiggghtsDem::countParticles(const Account& before)
 {
     const Account now = account();
-    double local[2] = {now.charge - before.charge, static_cast<double>(now.arrivals - before.arrivals)};
+    const double local[2] = {now.charge - before.charge, static_cast<double>(now.arrivals - before.arrivals)};
     double change[2];
     MPI_Allreduce(local, change, 2, MPI_DOUBLE, MPI_SUM, communicator_);
-    const bool someLeft = now.particles < before.particles + static_cast<std::int64_t>(change[1]);
-    // Only then: otherwise nothing may be missing, and the books must find out by themselves.
-    if (someLeft) {
+    expected_ += static_cast<std::int64_t>(change[1]);
+    if (removalsAllowed_ && lmp_->atom->natoms < expected_) {
+        // Only then: otherwise nothing may be missing, and the books must find out by themselves.
         removed_ += now.moved - before.moved - change[0];
+        expected_ = lmp_->atom->natoms;
     }
-}
-
-std::int64_t LiggghtsDem::particleCount() const
-{
-    return lmp_->atom->natoms;
 }
 
 ChargeMovements LiggghtsDem::movements() const

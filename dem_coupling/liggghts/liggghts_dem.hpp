@@ -30,12 +30,13 @@ public:
     void setWallContactField(WallContactField field) override;
     void setPermittivity(double permittivity) override;
     void setPartnerCutoff(double cutoff) override;
+    void allowRemovals(bool allowed) override { removalsAllowed_ = allowed; }
     void handOver() override;
 
     void particles(DemParticles& out) const override;
     void setField(const DemParticles& particles, const Points& field) override;
     void run(long steps) override;
-    std::int64_t particleCount() const override;
+    std::int64_t particleCount() const override { return expected_; }
 
     ChargeMovements movements() const override;
     ContactCounts contacts() const override;
@@ -44,13 +45,12 @@ public:
 private:
     /// What the books need to tell how much charge left with particles that the script took out.
     struct Account {
-        std::int64_t particles = 0;   ///< LIGGGHTS' own count, all ranks
-        std::int64_t arrivals = 0;    ///< this rank
+        std::int64_t arrivals = 0;    ///< particles that appeared since the hand-over, this rank
         double charge = 0;            ///< this rank [C]
         double moved = 0;             ///< inserted less given to walls, all ranks [C]
     };
     Account account() const;
-    void bookRemovals(const Account& before);
+    void countParticles(const Account& before);
 
     void command(const std::string& line);
     void checkContactModels(Complaints& complaints) const;
@@ -63,6 +63,8 @@ private:
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
     FixCoupleCfdEfield* field_ = nullptr;
+    bool removalsAllowed_ = false;
+    std::int64_t expected_ = 0;
     double removed_ = 0;   ///< charge of particles taken out since the hand-over, all ranks [C]
 };
 
