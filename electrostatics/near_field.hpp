@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "electrostatics/linked_cells.hpp"
+#include "electrostatics/types.hpp"
+
+#include <cstdint>
+
+namespace him {
+
+/// The sources of a pair sum. The first `targets` rows are the particles whose field is wanted; the rest are halo
+/// copies of other ranks or periodic copies. A particle never acts on itself (same row).
+struct ChargedPoints {
+    Points position;    ///< [m]
+    Scalars charge;     ///< [C]
+    Points cellCentre;  ///< [m], centre of the mesh cell that holds the point; only for the double-count correction
+    Index targets = 0;
+};
+
+/// Field [V/m] and potential [V] at the targets, own charge excluded.
+struct PairSumResult {
+    Points field;
+    Scalars potential;
+    std::int64_t pairs = 0;  ///< pairs inside the cutoff, counted per target
+
+    void resize(Index targets)
+    {
+        field.resize(targets, 3);
+        potential.resize(targets);
+    }
+};
+
+/// Pair sums within a cutoff over linked cells: cost linear in the number of points. Scratch memory is kept between
+/// calls, so a steady run allocates nothing. The sums throw std::domain_error naming the first row whose position, charge
+/// or cell centre is not finite, and std::invalid_argument when the arrays differ in length.
+class NearField {
+public:
+    /// @param cutoff        r_c [m] in 1e-40..1e50; a pair counts when |x_i - x_k| <= r_c
+    /// @param permittivity  eps > 0 [F/m]. Throws std::invalid_argument otherwise.
+    NearField(double cutoff, double permittivity);
+
+    /// R29 over |x_i - x_k| <= r_c (S2.18 with a radius in place of whole cells): E_i = sum q_k (x_i - x_k)/(4 pi eps r^3),
+    /// and the potential of the same pairs. Throws std::domain_error naming two rows that share a position.
+    void coulomb(const ChargedPoints& points, PairSumResult& result);
+
+    /// The same field plus the double-count correction R31 over the same pairs: minus the Coulomb field between the two
+    /// cell centres for pairs in different cells (one index k, as physics demands; R31 prints j and k mixed).
+    /// Centres closer than 1e-9 r_c are the same cell. The potential is left at zero: HIM has none.
+    void coulombWithoutDoubleCount(const ChargedPoints& points, PairSumResult& result);
+
+    double cutoff() const { return cutoff_; }
+
+private:
+    void sort(const ChargedPoints& points, bool withCellCentres);
+    template <bool withoutDoubleCount>
+    void sumAtTargets(const ChargedPoints& points, PairSumResult& result);
+
+    double cutoff_;
+    double permittivity_;
+    // Targets and the other sources in the order of their linked cells, the targets first. Every array is contiguous and
+    // padded for the kernels.
+    LinkedCells targets_, others_;
+    Scalars x_, y_, z_, q_, cellX_, cellY_, cellZ_;
+    Scalars fieldX_, fieldY_, fieldZ_, sumOfPotential_;  ///< without 1/(4 pi eps)
+};
+
+/// Field and potential at `targets` of all `sources` without a cutoff (R29, method PS), added to what `field` and
+/// `potential` hold. `selfRow` is the row among the sources of the first target, or -1 when the targets are not among
+/// them; target t is source selfRow + t. Throws std::domain_error naming two rows that share a position.
+/// @return number of pairs summed
+std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow, double permittivity,
+                         Points& field, Scalars& potential);
+
+/// Electrostatic energy [J]: U = 1/2 sum q_i V_i, V_i without the particle's own Coulomb term.
+double electrostaticEnergy(const Scalars& charge, const Scalars& potential);
+
+}  // namespace him

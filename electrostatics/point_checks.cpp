@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "electrostatics/point_checks.hpp"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace him {
+
+void throwNotFinite(const char* what, Index row, double value)
+{
+    std::ostringstream message;
+    message << "the " << what << " of row " << row << " must be finite (at most " << largestCoordinate << "), found " << value;
+    throw std::domain_error(message.str());
+}
+
+void throwSharedPosition(const Points& targets, Index target, const Points& sources, Index selfRow)
+{
+    const Vector3 point = targets.row(target).matrix();
+    Index nearest = -1;
+    double nearestSquared = largestCoordinate * largestCoordinate;
+    for (Index row = 0; row < sources.rows(); ++row) {
+        const double squared = (sources.row(row).matrix().transpose() - point).squaredNorm();
+        if (row != selfRow && squared < nearestSquared) {
+            nearest = row;
+            nearestSquared = squared;
+        }
+    }
+    std::ostringstream message;
+    if (selfRow >= 0) {
+        message << "rows " << selfRow << " and " << nearest;
+    } else {
+        message << "target row " << target << " and source row " << nearest;
+    }
+    message.precision(10);
+    message << " share the position (" << point.x() << " " << point.y() << " " << point.z() << ") m; their field would be infinite";
+    throw std::domain_error(message.str());
+}
+
+}  // namespace him
