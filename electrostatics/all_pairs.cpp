@@ -32,13 +32,14 @@ Scalars padded(const Eigen::Ref<const Scalars>& values)
 
 }  // namespace
 
-std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow, double permittivity,
-                         Points& field, Scalars& potential)
+std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow,
+                         double permittivity, Points& field, Scalars& potential)
 {
     requirePositive("permittivity", permittivity);
     if (charges.size() != sources.rows() || field.rows() != targets.rows() || potential.size() != targets.rows()
         || selfRow < -1 || (selfRow >= 0 && selfRow + targets.rows() > sources.rows())) {
-        throw std::invalid_argument("addAllPairs: the lengths of targets, sources, charges, field and potential do not match");
+        throw std::invalid_argument(
+            "addAllPairs: the lengths of targets, sources, charges, field and potential do not match");
     }
     requireFiniteRows(targets);
     requireFiniteRows(sources);

@@ -64,7 +64,8 @@ double hertzImpactTime(double maximumOverlap, double normalSpeed)
     return hertzTimeFactor * maximumOverlap / normalSpeed;
 }
 
-double impactAreaOnRigidFlat(double radius, double density, double youngsModulus, double poissonRatio, double normalSpeed)
+double impactAreaOnRigidFlat(double radius, double density, double youngsModulus, double poissonRatio,
+                             double normalSpeed)
 {
     requirePositive("radius", radius);
     requirePositive("density", density);

@@ -62,7 +62,8 @@ double relaxationFactor(double relaxation)
     return -std::expm1(-relaxation) / relaxation;
 }
 
-double chargeGained(const ContactDrive& drive, double relaxation, double efficiency, double areaGrowth, double permittivity)
+double chargeGained(const ContactDrive& drive, double relaxation, double efficiency, double areaGrowth,
+                    double permittivity)
 {
     if (std::islessequal(areaGrowth, 0.0)) {
         return 0.0;

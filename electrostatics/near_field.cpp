@@ -92,8 +92,7 @@ void NearField::sort(const ChargedPoints& points, bool withCellCentres)
     }
 }
 
-template <bool withoutDoubleCount>
-void NearField::sumAtTargets(const ChargedPoints& points, PairSumResult& result)
+template <bool withoutDoubleCount> void NearField::sumAtTargets(const ChargedPoints& points, PairSumResult& result)
 {
     const Index targets = points.targets;
     const PairLimits limits{cutoff_ * cutoff_, sameCellShare * sameCellShare * cutoff_ * cutoff_};
@@ -113,9 +112,10 @@ void NearField::sumAtTargets(const ChargedPoints& points, PairSumResult& result)
         }
         // Every pair of targets once, for both; the other sources act on the target only.
         targets_.rangesAfter(place, target.position, ranges);
-        const PairSum mutual = withoutDoubleCount
-                                   ? sumMutualWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits, sums)
-                                   : sumMutualCoulomb(sources, ranges.range.data(), ranges.count, target, limits, sums);
+        const PairSum mutual =
+            withoutDoubleCount
+                ? sumMutualWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits, sums)
+                : sumMutualCoulomb(sources, ranges.range.data(), ranges.count, target, limits, sums);
         others_.rangesAround(target.position, ranges);
         const PairSum single = withoutDoubleCount
                                    ? sumWithoutDoubleCount(others, ranges.range.data(), ranges.count, target, limits)

@@ -52,8 +52,7 @@ public:
 
 private:
     void sort(const ChargedPoints& points, bool withCellCentres);
-    template <bool withoutDoubleCount>
-    void sumAtTargets(const ChargedPoints& points, PairSumResult& result);
+    template <bool withoutDoubleCount> void sumAtTargets(const ChargedPoints& points, PairSumResult& result);
 
     double cutoff_;
     double permittivity_;
@@ -68,8 +67,8 @@ private:
 /// `potential` hold. `selfRow` is the row among the sources of the first target, or -1 when the targets are not among
 /// them; target t is source selfRow + t. Throws std::domain_error naming two rows that share a position.
 /// @return number of pairs summed
-std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow, double permittivity,
-                         Points& field, Scalars& potential);
+std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow,
+                         double permittivity, Points& field, Scalars& potential);
 
 /// Electrostatic energy [J]: U = 1/2 sum q_i V_i, V_i without the particle's own Coulomb term.
 double electrostaticEnergy(const Scalars& charge, const Scalars& potential);

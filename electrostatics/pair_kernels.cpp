@@ -48,8 +48,8 @@ HIM_INLINE void subtractAt(double* values, Lanes change)
 }
 
 template <bool withoutDoubleCount, bool mutual>
-HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                                 const PairLimits& limits, const ReactionArrays& reaction)
+HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, int rangeCount,
+                                 const PairTarget& target, const PairLimits& limits, const ReactionArrays& reaction)
 {
     const LaneVector position = spread(target.position);
     const LaneVector cell = spread(target.cellCentre);
@@ -106,8 +106,8 @@ HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, 
 
 }  // namespace
 
-HIM_CLONES PairSum sumCoulomb(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                              const PairLimits& limits)
+HIM_CLONES PairSum sumCoulomb(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
+                              const PairTarget& target, const PairLimits& limits)
 {
     return sumOverRanges<false, false>(sources, ranges, rangeCount, target, limits, {});
 }

@@ -28,7 +28,7 @@ struct SourceArrays {
     const double* x;  ///< [m]
     const double* y;
     const double* z;
-    const double* q;  ///< [C]
+    const double* q;      ///< [C]
     const double* cellX;  ///< [m]
     const double* cellY;
     const double* cellZ;
@@ -37,7 +37,12 @@ struct SourceArrays {
     SourceArrays from(Index row) const
     {
         const bool cells = cellX != nullptr;
-        return {x + row, y + row, z + row, q + row, cells ? cellX + row : nullptr, cells ? cellY + row : nullptr,
+        return {x + row,
+                y + row,
+                z + row,
+                q + row,
+                cells ? cellX + row : nullptr,
+                cells ? cellY + row : nullptr,
                 cells ? cellZ + row : nullptr};
     }
 };
@@ -58,7 +63,7 @@ struct PairLimits {
 /// Where the mutual kernels add what the target does to the sources, in the rows of the sources. The potential may be
 /// null for the kernel without double count.
 struct ReactionArrays {
-    double* x;          ///< [C/m2]
+    double* x;  ///< [C/m2]
     double* y;
     double* z;
     double* potential;  ///< [C/m]
@@ -81,8 +86,8 @@ PairSum sumMutualCoulomb(const SourceArrays& sources, const RowRange* ranges, in
                          const PairLimits& limits, const ReactionArrays& reaction);
 
 /// Coulomb sum less the field between the cell centres of the same pairs (R31), in different cells only. No potential.
-PairSum sumWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                              const PairLimits& limits);
+PairSum sumWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
+                              const PairTarget& target, const PairLimits& limits);
 
 /// The same in both directions.
 PairSum sumMutualWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,

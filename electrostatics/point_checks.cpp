@@ -9,7 +9,8 @@ namespace him {
 void throwNotFinite(const char* what, Index row, double value)
 {
     std::ostringstream message;
-    message << "the " << what << " of row " << row << " must be finite (at most " << largestCoordinate << "), found " << value;
+    message << "the " << what << " of row " << row << " must be finite (at most " << largestCoordinate << "), found "
+            << value;
     throw std::domain_error(message.str());
 }
 
@@ -32,7 +33,8 @@ void throwSharedPosition(const Points& targets, Index target, const Points& sour
         message << "target row " << target << " and source row " << nearest;
     }
     message.precision(10);
-    message << " share the position (" << point.x() << " " << point.y() << " " << point.z() << ") m; their field would be infinite";
+    message << " share the position (" << point.x() << " " << point.y() << " " << point.z()
+            << ") m; their field would be infinite";
     throw std::domain_error(message.str());
 }
 

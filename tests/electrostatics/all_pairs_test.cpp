@@ -95,17 +95,17 @@ TEST(AllPairs, refuseOnePositionHeldTwice)
     const Points target = points.position.row(6);
     Sums one(1);
     points.position.row(6).setZero();
-    EXPECT_EQ(refusal([&] {
-                  addAllPairs(target, points.position, points.charge, -1, epsilon0, one.field, one.potential);
-              }),
-              "target row 0 and source row 2 share the position (1 2 3) m; their field would be infinite");
+    EXPECT_EQ(
+        refusal([&] { addAllPairs(target, points.position, points.charge, -1, epsilon0, one.field, one.potential); }),
+        "target row 0 and source row 2 share the position (1 2 3) m; their field would be infinite");
 }
 
 TEST(AllPairs, refuseWhatDoesNotFit)
 {
     ChargedPoints points = randomPoints(4, 1.0, 1.0, 1.0, 36);
     Sums sums(4);
-    const std::string lengths = "addAllPairs: the lengths of targets, sources, charges, field and potential do not match";
+    const std::string lengths =
+        "addAllPairs: the lengths of targets, sources, charges, field and potential do not match";
     EXPECT_EQ(refusal([&] {
                   addAllPairs(points.position, points.position, Scalars(3), 0, epsilon0, sums.field, sums.potential);
               }),

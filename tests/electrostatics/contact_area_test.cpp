@@ -13,11 +13,11 @@ namespace him {
 namespace {
 
 // R Tables 1 and 2, PTFE on a rigid wall; the 3.18 mm column is a diameter.
-constexpr double radius = 1.59e-3;  // [m]
-constexpr double density = 2150.0;  // [kg/m3]
-constexpr double modulus = 0.564e9; // [Pa]
+constexpr double radius = 1.59e-3;   // [m]
+constexpr double density = 2150.0;   // [kg/m3]
+constexpr double modulus = 0.564e9;  // [Pa]
 constexpr double poisson = 0.42;
-constexpr double speed = 2.56;      // [m/s]
+constexpr double speed = 2.56;  // [m/s]
 constexpr double mass = 4.0 / 3.0 * pi * radius * radius * radius * density;
 constexpr double flatModulus = modulus / (1.0 - poisson * poisson);
 
@@ -100,11 +100,13 @@ TEST(ContactArea, refusesWhatHasNoMeaning)
     EXPECT_EQ(refusal([] { areaLawByName("hertzian"); }),
               "unknown contact area law \"hertzian\"; known: hertz, doubled");
     EXPECT_EQ(refusal([] { contactArea(AreaLaw::hertz, 1e-3, -1e-9); }), "overlap must be >= 0, found -1e-09");
-    EXPECT_EQ(refusal([] { contactArea(AreaLaw::hertz, 0.0, 1e-9); }), "effective radius must be > 0 and finite, found 0");
+    EXPECT_EQ(refusal([] { contactArea(AreaLaw::hertz, 0.0, 1e-9); }),
+              "effective radius must be > 0 and finite, found 0");
     EXPECT_EQ(refusal([] { effectiveRadius(1e-3, -2e-3); }), "radius must be > 0 and finite, found -0.002");
     EXPECT_EQ(refusal([] { effectiveRadius(std::numeric_limits<double>::infinity(), 1e-3); }),
               "radius must be > 0 and finite, found inf");
-    EXPECT_EQ(refusal([] { softeningCorrection(std::nan(""), 1e9); }), "softened modulus must be > 0 and finite, found nan");
+    EXPECT_EQ(refusal([] { softeningCorrection(std::nan(""), 1e9); }),
+              "softened modulus must be > 0 and finite, found nan");
     EXPECT_EQ(refusal([] { impactAreaOnRigidFlat(1e-3, 1e3, 1e9, 0.6, 1.0); }),
               "Poisson's ratio must be above -1 and at most 0.5, found 0.6");
 }

@@ -16,7 +16,8 @@ namespace {
 double chargeAfterOneWallContact(double charge, double saturation, double x, double radius)
 {
     const double area = x * 4.0 * pi * radius * radius;
-    const ContactDrive drive{surfaceField(saturation, radius, epsilon0), surfaceField(charge, radius, epsilon0), 0.0, 0.0};
+    const ContactDrive drive{surfaceField(saturation, radius, epsilon0), surfaceField(charge, radius, epsilon0), 0.0,
+                             0.0};
     return charge + chargeGained(drive, relaxationNumber(1.0, area, radius), 1.0, area, epsilon0);
 }
 
@@ -32,7 +33,8 @@ class MeasuredWallImpact : public testing::TestWithParam<WallImpact> {};
 TEST_P(MeasuredWallImpact, movesTheChargeOfTheFrozenAndTheUpdatedLaw)
 {
     const WallImpact& impact = GetParam();
-    const double area = impactAreaOnRigidFlat(impact.radius, impact.density, impact.modulus, impact.poisson, impact.speed);
+    const double area =
+        impactAreaOnRigidFlat(impact.radius, impact.density, impact.modulus, impact.poisson, impact.speed);
     const ContactDrive drive{surfaceField(impact.saturation, impact.radius, epsilon0),
                              surfaceField(impact.charge, impact.radius, epsilon0), 0.0, 0.0};
     const double x = relaxationNumber(impact.efficiency, area, impact.radius);
@@ -48,15 +50,14 @@ TEST_P(MeasuredWallImpact, movesTheChargeOfTheFrozenAndTheUpdatedLaw)
 
 // The 3.18 mm of PTFE and HDPE are diameters, the 0.275 mm of alpha lactose is a radius. HDPE needs -3.91e-10 C where
 // R prints -3.97e-10.
-INSTANTIATE_TEST_SUITE_P(
-    RaseraTable1, MeasuredWallImpact,
-    testing::Values(WallImpact{"PTFE", 1.59e-3, 2150, 0.564e9, 0.42, 2.56, 9.64, -1.71e-10, -6.57e-10, -2.702e-11,
-                               -2.628e-11, -2.70e-11},
-                    WallImpact{"HDPE", 1.59e-3, 968, 0.8e9, 0.46, 2.56, 3.65, -3.2e-11, -3.91e-10, -4.692e-12, -4.661e-12,
-                               -4.70e-12},
-                    WallImpact{"alphaLactose", 0.275e-3, 1540, 18e9, 0.3, 4.9, 36.62, 2.29e-12, -1.81e-11, -1.650e-12,
-                               -1.585e-12, -1.65e-12}),
-    [](const auto& impact) { return std::string(impact.param.name); });
+INSTANTIATE_TEST_SUITE_P(RaseraTable1, MeasuredWallImpact,
+                         testing::Values(WallImpact{"PTFE", 1.59e-3, 2150, 0.564e9, 0.42, 2.56, 9.64, -1.71e-10,
+                                                    -6.57e-10, -2.702e-11, -2.628e-11, -2.70e-11},
+                                         WallImpact{"HDPE", 1.59e-3, 968, 0.8e9, 0.46, 2.56, 3.65, -3.2e-11, -3.91e-10,
+                                                    -4.692e-12, -4.661e-12, -4.70e-12},
+                                         WallImpact{"alphaLactose", 0.275e-3, 1540, 18e9, 0.3, 4.9, 36.62, 2.29e-12,
+                                                    -1.81e-11, -1.650e-12, -1.585e-12, -1.65e-12}),
+                         [](const auto& impact) { return std::string(impact.param.name); });
 
 TEST(ContactCharging, ofTwoEqualPolyamideSpheresSharesTheirDifference)
 {
@@ -86,7 +87,8 @@ TEST(ContactCharging, aRunOfEqualContactsFollowsThePowerAndTheExponential)
     double frozen = start;
     double updated = start;
     for (int n = 1; n <= 40; ++n) {
-        const ContactDrive drive{surfaceField(saturation, radius, epsilon0), surfaceField(frozen, radius, epsilon0), 0.0, 0.0};
+        const ContactDrive drive{surfaceField(saturation, radius, epsilon0), surfaceField(frozen, radius, epsilon0),
+                                 0.0, 0.0};
         frozen += chargeGainedFrozen(drive, 1.0, area, epsilon0);
         updated = chargeAfterOneWallContact(updated, saturation, x, radius);
         EXPECT_NEAR(frozen, saturation + (start - saturation) * std::pow(1.0 - x, n), 1e-22);
@@ -109,8 +111,8 @@ TEST(ContactCharging, cutIntoSubStepsMovesTheSameCharge)
             const double growth = area / steps;
             const double xA = relaxationNumber(efficiency, growth, radiusA);
             const double xB = relaxationNumber(efficiency, growth, radiusB);
-            const ContactDrive drive{transferLimit, surfaceField(a, radiusA, epsilon0), surfaceField(b, radiusB, epsilon0),
-                                     external};
+            const ContactDrive drive{transferLimit, surfaceField(a, radiusA, epsilon0),
+                                     surfaceField(b, radiusB, epsilon0), external};
             const double gained = chargeGained(drive, pairRelaxation(xA, xB, xA, xB), efficiency, growth, epsilon0);
             a += gained;
             b -= gained;
@@ -136,11 +138,11 @@ TEST(ContactCharging, signsFollowTheConvention)
     const double area = 1e-7;
     const double x = 1e-9;
     const auto gained = [&](const ContactDrive& drive) { return chargeGained(drive, x, 1.0, area, epsilon0); };
-    EXPECT_GT(gained({1e6, 0, 0, 0}), 0);   // positive Gamma drives charge to a
-    EXPECT_LT(gained({0, 1e6, 0, 0}), 0);   // a charged a loses to a neutral partner
-    EXPECT_GT(gained({0, 0, 1e6, 0}), 0);   // a charged b gives
-    EXPECT_LT(gained({0, 0, 0, 1e6}), 0);   // a field from a to b carries positive charge from a to b
-    EXPECT_EQ(gained({5e5, 5e5, 0, 0}), 0); // at saturation nothing moves
+    EXPECT_GT(gained({1e6, 0, 0, 0}), 0);    // positive Gamma drives charge to a
+    EXPECT_LT(gained({0, 1e6, 0, 0}), 0);    // a charged a loses to a neutral partner
+    EXPECT_GT(gained({0, 0, 1e6, 0}), 0);    // a charged b gives
+    EXPECT_LT(gained({0, 0, 0, 1e6}), 0);    // a field from a to b carries positive charge from a to b
+    EXPECT_EQ(gained({5e5, 5e5, 0, 0}), 0);  // at saturation nothing moves
     EXPECT_NEAR(gained({1e6, 0, 0, 0}), epsilon0 * area * 1e6, 1e-9 * epsilon0 * area * 1e6);
 }
 
@@ -186,7 +188,8 @@ TEST(ContactCharging, saturationOfTheShakenSpheres)
 TEST(ContactCharging, equilibriumChargesOfTheFluidizedBed)
 {
     // S2.14 with S2.15 for e/g = 1, 2, 4, 8; 277 um, 960 kg/m3.
-    const double expected[][3] = {{1, 9.459e-13, 4.432e5}, {2, 1.338e-12, 6.268e5}, {4, 1.892e-12, 8.864e5}, {8, 2.675e-12, 1.2535e6}};
+    const double expected[][3] = {
+        {1, 9.459e-13, 4.432e5}, {2, 1.338e-12, 6.268e5}, {4, 1.892e-12, 8.864e5}, {8, 2.675e-12, 1.2535e6}};
     const double diameter = 277e-6;
     const double weight = 960.0 * pi / 6.0 * std::pow(diameter, 3) * 9.81;
     for (const auto& row : expected) {
@@ -221,8 +224,10 @@ TEST(ContactCharging, refusesWhatHasNoMeaning)
     EXPECT_EQ(refusal([] { relaxationNumber(-3.0, 1e-8, 1e-3); }), "charging efficiency must be >= 0, found -3");
     EXPECT_EQ(refusal([] { relaxationNumber(3.0, -1e-8, 1e-3); }), "area growth must be >= 0, found -1e-08");
     EXPECT_EQ(refusal([] { relaxationFactor(-0.5); }), "relaxation must be >= 0, found -0.5");
-    EXPECT_EQ(refusal([&] { chargeGained(drive, 0.1, -1.0, 1e-8, epsilon0); }), "charging efficiency must be >= 0, found -1");
-    EXPECT_EQ(refusal([&] { chargeGained(drive, 0.1, 1.0, std::nan(""), epsilon0); }), "area growth must be >= 0, found nan");
+    EXPECT_EQ(refusal([&] { chargeGained(drive, 0.1, -1.0, 1e-8, epsilon0); }),
+              "charging efficiency must be >= 0, found -1");
+    EXPECT_EQ(refusal([&] { chargeGained(drive, 0.1, 1.0, std::nan(""), epsilon0); }),
+              "area growth must be >= 0, found nan");
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ void report(benchmark::State& state, const PairSumResult& result, Index count)
 {
     const double pairs = static_cast<double>(result.pairs);
     state.counters["pairsPerParticle"] = pairs / static_cast<double>(count);
-    state.counters["perPair"] = benchmark::Counter(
-        pairs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["perPair"] =
+        benchmark::Counter(pairs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.counters["perParticle"] = benchmark::Counter(
         static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
@@ -81,7 +81,8 @@ void allPairs(benchmark::State& state)
     for (auto step : state) {
         result.field.setZero(points.targets, 3);
         result.potential.setZero(points.targets);
-        result.pairs = addAllPairs(points.position, points.position, points.charge, 0, epsilon0, result.field, result.potential);
+        result.pairs =
+            addAllPairs(points.position, points.position, points.charge, 0, epsilon0, result.field, result.potential);
     }
     report(state, result, points.targets);
 }

@@ -37,7 +37,8 @@ void expectSame(const PairSumResult& found, const BruteForce& expected)
     for (Index i = 0; i < expected.field.rows(); ++i) {
         const double error = (found.field.row(i) - expected.field.row(i)).matrix().norm();
         EXPECT_LE(error, roundOff * expected.fieldScale[i]) << "row " << i;
-        EXPECT_LE(std::abs(found.potential[i] - expected.potential[i]), roundOff * expected.potentialScale[i]) << "row " << i;
+        EXPECT_LE(std::abs(found.potential[i] - expected.potential[i]), roundOff * expected.potentialScale[i])
+            << "row " << i;
     }
 }
 
@@ -103,8 +104,8 @@ TEST_P(Cutoff, cellListEqualsTheDoubleLoopForClusters)
 
 TEST_P(Cutoff, cellListEqualsTheDoubleLoopInPlanesAndLines)
 {
-    for (const auto& edges : {Vector3(1, 1, 0), Vector3(1, 0, 1), Vector3(0, 1, 1), Vector3(1, 0, 0), Vector3(0, 1, 0),
-                              Vector3(0, 0, 1)}) {
+    for (const auto& edges :
+         {Vector3(1, 1, 0), Vector3(1, 0, 1), Vector3(0, 1, 1), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
         const ChargedPoints points = randomPoints(150, edges.x(), edges.y(), edges.z(), 13);
         expectSame(coulomb(points, GetParam()), bruteForce(points, GetParam(), epsilon0, false));
     }
@@ -120,7 +121,8 @@ TEST_P(Cutoff, sourcesThatAreNoTargetsActWithoutBeingActedOn)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(SmallToLargerThanTheBox, Cutoff, testing::Values(1e-3, 0.03, 0.11, 0.25, 0.5, 1.0, 3.0, 100.0));
+INSTANTIATE_TEST_SUITE_P(SmallToLargerThanTheBox, Cutoff,
+                         testing::Values(1e-3, 0.03, 0.11, 0.25, 0.5, 1.0, 3.0, 100.0));
 
 TEST(NearField, findsNeighboursOnALatticeWhoseSpacingIsTheCutoff)
 {
@@ -129,11 +131,35 @@ TEST(NearField, findsNeighboursOnALatticeWhoseSpacingIsTheCutoff)
         ChargedPoints points;
         points.position.resize(6 * 6 * 6, 3);
         for (Index i = 0; i < 216; ++i) {
-            points.position.row(i) << offset + 0.25 * double(i % 6), offset + 0.25 * double(i / 6 % 6), 0.25 * double(i / 36);
+            points.position.row(i) << offset + 0.25 * double(i % 6), offset + 0.25 * double(i / 6 % 6),
+                0.25 * double(i / 36);
         }
         points.charge.setConstant(216, 1e-12);
         points.targets = 216;
         EXPECT_EQ(coulomb(points, 0.25).pairs, 2 * 3 * 5 * 6 * 6);
+    }
+}
+
+TEST(NearField, decidesPairsAtTheCutoffLikeTheDoubleLoopDespiteRoundOff)
+{
+    for (const double offset : {0.0, 0.3, -77.7, 1234.567}) {
+        for (const double spacing : {0.1, 0.07}) {
+            ChargedPoints points;
+            points.position.resize(7 * 7 * 7, 3);
+            for (Index i = 0; i < 343; ++i) {
+                points.position.row(i) << offset + spacing * double(i % 7), offset + spacing * double(i / 7 % 7),
+                    offset + spacing * double(i / 49);
+            }
+            points.charge.setConstant(343, 1e-12);
+            points.targets = 343;
+            for (const int steps : {1, 2, 3}) {
+                const double cutoff = spacing * steps;
+                EXPECT_EQ(coulomb(points, cutoff).pairs, bruteForce(points, cutoff, epsilon0, false).pairs);
+                points.targets = 170;
+                EXPECT_EQ(coulomb(points, cutoff).pairs, bruteForce(points, cutoff, epsilon0, false).pairs);
+                points.targets = 343;
+            }
+        }
     }
 }
 
@@ -165,7 +191,8 @@ TEST(NearField, doesNotDependOnTheOrderOfTheInputBeyondRoundOff)
     const PairSumResult found = coulombWithoutDoubleCount(shuffled, 0.3);
     EXPECT_EQ(found.pairs, expected.pairs);
     for (Index i = 0; i < 900; ++i) {
-        EXPECT_LE((found.field.row(i) - expected.field.row(order[i])).matrix().norm(), 1e-13 * scale.fieldScale[order[i]]);
+        EXPECT_LE((found.field.row(i) - expected.field.row(order[i])).matrix().norm(),
+                  1e-13 * scale.fieldScale[order[i]]);
     }
 }
 
@@ -250,8 +277,8 @@ TEST(NearField, refusesTwoPointsAtOnePosition)
     points.position.row(8) = points.position.row(41);
     const std::string expected = "rows 8 and 41 share the position (0.5 0.25 0.125) m; their field would be infinite";
     const std::string other = "rows 41 and 8 share the position (0.5 0.25 0.125) m; their field would be infinite";
-    for (const std::string& found : {refusal([&] { coulomb(points, 0.3); }),
-                                     refusal([&] { coulombWithoutDoubleCount(points, 0.3); })}) {
+    for (const std::string& found :
+         {refusal([&] { coulomb(points, 0.3); }), refusal([&] { coulombWithoutDoubleCount(points, 0.3); })}) {
         EXPECT_TRUE(found == expected || found == other) << found;
     }
     points.targets = 20;  // row 41 is now a halo copy on top of a target
@@ -281,7 +308,8 @@ TEST(NearField, refusesSettingsWithoutMeaning)
 {
     EXPECT_EQ(refusal([] { NearField(-1.0, epsilon0); }), "near cutoff [m] must be > 0 (1e-40 to 1e50), found -1");
     EXPECT_EQ(refusal([] { NearField(0.0, epsilon0); }), "near cutoff [m] must be > 0 (1e-40 to 1e50), found 0");
-    EXPECT_EQ(refusal([] { NearField(std::nan(""), epsilon0); }), "near cutoff [m] must be > 0 (1e-40 to 1e50), found nan");
+    EXPECT_EQ(refusal([] { NearField(std::nan(""), epsilon0); }),
+              "near cutoff [m] must be > 0 (1e-40 to 1e50), found nan");
     EXPECT_EQ(refusal([] { NearField(1.0, 0.0); }), "permittivity must be > 0 and finite, found 0");
 }
 
@@ -298,7 +326,8 @@ TEST(NearField, refusesArraysOfDifferentLength)
     EXPECT_EQ(refusal([&] { coulomb(bad, 0.3); }), "nothing was refused");
     bad = points;
     bad.targets = 6;
-    EXPECT_EQ(refusal([&] { coulomb(bad, 0.3); }), "the number of targets must lie between 0 and the 5 positions, found 6");
+    EXPECT_EQ(refusal([&] { coulomb(bad, 0.3); }),
+              "the number of targets must lie between 0 and the 5 positions, found 6");
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 namespace him {
 
 /// Text of the exception that the call throws, or "nothing was refused".
-template <class Call>
-std::string refusal(Call call)
+template <class Call> std::string refusal(Call call)
 {
     try {
         call();
