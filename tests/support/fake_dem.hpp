@@ -26,6 +26,7 @@ public:
     void setWallContactField(WallContactField) override {}
     void setPermittivity(double) override {}
     void setPartnerCutoff(double cutoff) override { partnerCutoff = cutoff; }
+    void allowRemovals(bool) override {}
     void handOver() override { handedOver = true; }
     void particles(DemParticles& out) const override { out = mine; }
     void setField(const DemParticles& particles, const Points& field) override;
