@@ -11,7 +11,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import ListedColormap, Normalize
 
 import render
 import shaker
@@ -28,6 +28,10 @@ def thin(columns, points=1500):
     """Every n-th row: a line needs no more points than pixels."""
     step = max(1, len(columns["Time"])//points)
     return {name: column[::step] for name, column in columns.items()}
+
+
+def binned(column, count, reduce):
+    return np.array([reduce(part) for part in np.array_split(column, count)])
 
 
 def save(figure, folder, name):
@@ -57,16 +61,18 @@ def bulk_charge(runs, folder):
 def particle_charges(runs, folder):
     figure, all_axes = plt.subplots(1, len(runs), figsize=(4.4*len(runs) + 0.8, 3.8), sharey=True, squeeze=False)
     for axes, (name, columns), colour in zip(all_axes[0], runs.items(), (BLUE, ORANGE)):
-        columns = thin(columns)
-        axes.fill_between(columns["Time"], NANO*columns["min"], NANO*columns["max"], color=colour, alpha=0.22, lw=0,
-                          label="smallest to largest")
-        axes.plot(columns["Time"], NANO*columns["mean"], color=colour, lw=2, label="mean")
+        count = min(240, len(columns["Time"]))
+        time, mean, low, high = (binned(columns[c], count, np.mean) for c in ("Time", "mean", "min", "max"))
+        axes.fill_between(time, NANO*binned(columns["min"], count, np.min), NANO*binned(columns["max"], count, np.max),
+                          color=colour, alpha=0.13, lw=0, label="extremes")
+        axes.fill_between(time, NANO*low, NANO*high, color=colour, alpha=0.28, lw=0, label="smallest to largest, on average")
+        axes.plot(time, NANO*mean, color=colour, lw=2, label="mean")
         axes.axhline(NANO*shaker.Q_SAT, color=GREY, lw=1.4, ls=":", label=f"isolated sphere, {NANO*shaker.Q_SAT:.2f} nC")
         axes.set(xlabel="time [s]", xlim=(0, columns["Time"][-1]))
         axes.set_title(f"wall contact field {name}", loc="left", fontsize=12)
-        axes.legend(loc="upper right")
+    all_axes[0, 0].legend(loc="upper right", fontsize=10)
     lowest = min(columns["min"].min() for columns in runs.values())
-    all_axes[0, 0].set_ylim(NANO*min(lowest, shaker.Q_SAT)*1.06, 0)
+    all_axes[0, 0].set_ylim(NANO*min(lowest, shaker.Q_SAT)*1.04, 0)
     all_axes[0, 0].set_ylabel("charge of a sphere [nC]")
     save(figure, folder, "particleCharge.png")
 
@@ -85,9 +91,11 @@ def container(run, folder, time):
     positions, charges, centres, potential = shaker.last_scene(run)
     _, table = render.slice_potential(centres, potential)
     spheres = Normalize(NANO*charges.min(), NANO*charges.max())
-    plane = Normalize(table.min()*1e-3, 0)
-    sphere_map, plane_map = plt.get_cmap("plasma"), plt.get_cmap("Blues_r")
-    levels = np.linspace(table.min(), 0, 11)[1:-1]
+    deepest = np.quantile(table, 0.005)     # the cell of a sphere that the slice cuts would outshine the rest
+    plane = Normalize(deepest*1e-3, 0)
+    sphere_map = plt.get_cmap("plasma")
+    plane_map = ListedColormap(plt.get_cmap("Blues_r")(np.linspace(0, 1, 256)**1.6))    # darker in the middle
+    levels = np.linspace(deepest, 0, 13)[1:-1]
     image, depth, camera = render.picture(positions, NANO*charges, centres, potential*1e-3,
                                           lambda q: np.array(sphere_map(spheres(q))), lambda v: plane_map(plane(v)), levels*1e-3)
     height, width = image.shape[:2]
@@ -103,7 +111,7 @@ def container(run, folder, time):
     left = width/110/(width/110 + 1.9) + 0.01
     for bottom, norm, colours, label in ((0.53, spheres, sphere_map, "charge of a sphere [nC]"),
                                          (0.09, plane, plane_map, "mesh potential on the slice [kV]")):
-        bar = figure.colorbar(ScalarMappable(norm, colours), cax=figure.add_axes([left, bottom, 0.03, 0.36]))
+        bar = figure.colorbar(ScalarMappable(norm, colours), extend="min" if norm is plane else "neither", cax=figure.add_axes([left, bottom, 0.03, 0.36]))
         bar.set_label(label)
         bar.outline.set_linewidth(0.6)
     figure.text(0.02, 0.965, f"t = {time:g} s", fontsize=13)

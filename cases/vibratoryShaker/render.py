@@ -144,7 +144,7 @@ def render(camera, positions, colours, plane, plane_colour, levels):
     on = (np.abs(s) <= CONTAINER_RADIUS) & (z >= 0) & (z <= CONTAINER_HEIGHT)
     value = np.where(on, plane(s, np.clip(z, 0, CONTAINER_HEIGHT)), 0.0)
     visible = on & (t < depth)
-    image = blend(image, plane_colour(value), np.where(visible, 0.74, 0.0))
+    image = blend(image, plane_colour(value), np.where(visible, 0.72, 0.0))
     band = np.digitize(value, np.sort(levels))
     line = np.zeros(shape, bool)
     for axis in (0, 1):

@@ -4,6 +4,7 @@
 import glob
 import math
 import os
+import re
 import subprocess
 from xml.etree import ElementTree
 
@@ -50,6 +51,20 @@ def fit_saturation(time, charge):
     tau = taus[len(taus)//2]
     q_inf, rms = solve(tau)
     return q_inf, tau, rms/abs(q_inf)
+
+
+def read_cloud(run, time, name):
+    """A field of the particles as himFoam wrote it (ascii), one row per particle."""
+    with open(os.path.join(run, time, "lagrangian", "particles", name)) as file:
+        text = file.read().rpartition("// * *")[2]
+    rows = text[text.index("\n(\n") + 3:text.rindex("\n)")].translate(str.maketrans("()", "  ")).splitlines()
+    return np.array([row.split() for row in rows], float)
+
+
+def write_times(run):
+    """Names of the time directories after the start, in order."""
+    names = [name for name in os.listdir(run) if re.fullmatch(r"\d+(\.\d+)?", name) and float(name) > 0]
+    return sorted(names, key=float)
 
 
 def convert(run):
