@@ -88,6 +88,23 @@ void checkSolution(const Foam::fileName& casePath, Complaints& complaints)
     corrections.refuseUnknownEntries();
 }
 
+/// A mesh cut into more or fewer parts than there are ranks. Collective.
+bool cutForThisRun(const Foam::Time& runTime, Complaints& complaints)
+{
+    int parts = 0;
+    while (Foam::isDir(runTime.globalPath()/("processor" + std::to_string(parts)))) {
+        ++parts;
+    }
+    Foam::Pstream::scatter(parts);
+    const int ranks = Foam::Pstream::nProcs();
+    if (Foam::Pstream::parRun() && parts > 0 && parts != ranks) {
+        complaints.add("processor folders", "the mesh is cut into " + std::to_string(parts) + " parts, but the run has "
+                                            + std::to_string(ranks) + " ranks. Run decomposePar for this number of ranks.");
+        return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 void checkControlDict(const Foam::fileName& casePath, Complaints& complaints)
@@ -100,6 +117,9 @@ void checkControlDict(const Foam::fileName& casePath, Complaints& complaints)
 
 Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& complaints)
 {
+    if (!cutForThisRun(runTime, complaints)) {
+        return nullptr;
+    }
     bool complete = true;
     const Foam::fileName folder = runTime.path()/runTime.constant()/Foam::polyMesh::meshSubDir;
     if (!onAllRanks(Foam::isFile(folder/"owner"))) {

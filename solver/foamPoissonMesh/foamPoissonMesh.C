@@ -73,7 +73,8 @@ foamPoissonMesh::foamPoissonMesh(const Foam::fvMesh& mesh, double permittivity)
 
 Vector3 foamPoissonMesh::cellCentre(Index cell) const
 {
-    return toEigen(mesh_.C()[static_cast<label>(cell)]);
+    // Not C(), which is built by all ranks together when it is first asked for.
+    return toEigen(mesh_.cellCentres()[static_cast<label>(cell)]);
 }
 
 Vector3 foamPoissonMesh::electricField(Index cell) const

@@ -17,74 +17,23 @@ Usage
 
 SourceFiles
     himFoam.C
+    scene.C
 \*---------------------------------------------------------------------------*/
-#include "checks/caseChecks.H"
+#include "himFoam/scene.H"
 #include "output/chargeTable.H"
 #include "output/particleWriter.H"
 #include "output/runReport.H"
 #include "parallel/session.H"
 
 #include "OSspecific.H"
-#include "argList.H"
 #include "profiling.H"
 
 #include <cstdio>
+#include <stdexcept>
 
 namespace him {
 
 namespace {
-
-/// The case with everything that it needs, open and checked.
-struct scene {
-    caseSettings settings;
-    Foam::autoPtr<Foam::Time> runTime;
-    Foam::autoPtr<Foam::fvMesh> mesh;
-    std::unique_ptr<foamPoissonMesh> poisson;
-    std::unique_ptr<DemPort> dem;
-    long demSteps = 0;
-};
-
-void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
-{
-    const Foam::fileName casePath = args.rootPath()/args.globalCaseName();
-    Complaints complaints;
-    checkControlDict(casePath, complaints);
-    const bool timeOpens = complaints.none();
-    s.settings = readCaseSettings(casePath, complaints);
-    if (timeOpens) {
-        s.runTime.reset(new Foam::Time(Foam::Time::controlDictName, args));
-        if (s.settings.needsMesh) {
-            s.mesh = openMesh(s.runTime(), complaints);
-        }
-    }
-    if (s.mesh.valid()) {
-        s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints);
-    }
-    if (s.poisson) {
-        checkCutoff(s.settings.field, *s.poisson, complaints);
-    }
-    if (s.poisson || !s.settings.needsMesh) {
-        checkWallTargets(s.settings, s.poisson.get(), complaints);
-    }
-    stopOnComplaints(complaints, "Dictionaries, mesh and fields", communicator);
-}
-
-void openDem(scene& s, MPI_Comm communicator)
-{
-    const Foam::fileName casePath = s.runTime().globalPath();
-    const Foam::fileName script(s.settings.demScript);
-    Foam::Info << "LIGGGHTS reads " << script << Foam::endl;
-    s.dem = openLiggghts({script, casePath, script.path()/"log.liggghts"}, communicator);
-
-    Complaints complaints = s.dem->check();
-    s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);
-    checkWalls(s.settings, *s.dem, complaints);
-    if (s.poisson) {
-        checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
-    }
-    stopOnComplaints(complaints, "Case and DEM script together", communicator);
-    printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);
-}
 
 std::unique_ptr<FieldMethod> handSettingsTo(const scene& s, MPI_Comm communicator, PhaseTimes& times)
 {
@@ -96,13 +45,18 @@ std::unique_ptr<FieldMethod> handSettingsTo(const scene& s, MPI_Comm communicato
     s.dem->setWallRoles(roles);
     s.dem->setWallContactField(s.settings.wallContactField);
     s.dem->setPermittivity(s.settings.field.permittivity);
-    s.dem->setPartnerCutoff(method->partnerCutoff());
+    s.dem->allowRemovals(s.settings.allowRemovals);
     return method;
 }
 
-void write(const scene& s, const CoupledStep& step, particleWriter& particles, PhaseTimes& times)
+/// Fields, particles and DEM checkpoint, when it is time for them.
+void write(scene& s, const CoupledStep& step, particleWriter& particles, PhaseTimes& times)
 {
     const PhaseTimer timer(times, Phase::output);
+    s.runTime().write();
+    if (!s.runTime().writeTime()) {
+        return;
+    }
     particles.write(step.particles(), step.field().field);
     if (s.settings.demCheckpoint) {
         const Foam::fileName folder = Foam::fileName(s.settings.demScript).path()/"restart";
@@ -124,16 +78,17 @@ void run(scene& s, MPI_Comm communicator)
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     step.start();
     charge.write(runTime.value(), step.summary(), step.books());
+    const double deltaT = runTime.deltaTValue();
     while (runTime.loop()) {
+        if (runTime.deltaTValue() != deltaT) {
+            throw std::runtime_error("deltaT was changed during the run; stop and start again to change it.");
+        }
         report.beginStep();
         step.advance(s.demSteps);
         if (runTime.timeIndex() % s.settings.chargeInterval == 0) {
             charge.write(runTime.value(), step.summary(), step.books());
         }
-        runTime.write();
-        if (runTime.writeTime()) {
-            write(s, step, *particles, times);
-        }
+        write(s, step, *particles, times);
         report.endStep(step);
     }
     report.printSummary(step, *s.dem, communicator);
@@ -150,6 +105,8 @@ int main(int argc, char* argv[])
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     Foam::argList::addNote("Charged particles: DEM by LIGGGHTS, contact charging, electric field by HIM or pair sums.");
     Foam::argList::addBoolOption("dry-run", "Check the whole case and stop before the first step");
+    // A case without a mesh runs in parallel too; openMesh checks the processor folders of the others.
+    Foam::argList::noCheckProcessorDirectories();
     Foam::argList args(argc, argv);
     if (!args.checkRootCase()) {
         Foam::FatalError.exit();

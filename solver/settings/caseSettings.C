@@ -63,6 +63,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
                                     ? WallContactField::self : WallContactField::total;
     settings.field.outsideMesh = properties.oneOf("particlesOutsideMesh", {"error", "excluded"}, "error") == "excluded"
                                      ? OutsideMesh::excluded : OutsideMesh::error;
+    settings.allowRemovals = properties.yesNo("allowRemovals", false);
     settings.demCheckpoint = properties.yesNo("demCheckpoint", true);
     settings.logInterval = properties.positiveInteger("logInterval", 1);
     settings.chargeInterval = properties.positiveInteger("chargeInterval", 1);

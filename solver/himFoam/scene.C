@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "himFoam/scene.H"
+
+#include "output/runReport.H"
+#include "parallel/session.H"
+
+#include "profiling.H"
+
+namespace him {
+
+void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
+{
+    const Foam::fileName casePath = args.rootPath()/args.globalCaseName();
+    Complaints complaints;
+    checkControlDict(casePath, complaints);
+    const bool timeOpens = complaints.none();
+    s.settings = readCaseSettings(casePath, complaints);
+    if (timeOpens) {
+        s.runTime.reset(new Foam::Time(Foam::Time::controlDictName, args));
+        if (s.settings.needsMesh) {
+            s.mesh = openMesh(s.runTime(), complaints);
+        }
+    }
+    if (s.mesh.valid()) {
+        s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints);
+    }
+    if (s.poisson) {
+        checkCutoff(s.settings.field, *s.poisson, complaints);
+    }
+    if (s.poisson || !s.settings.needsMesh) {
+        checkWallTargets(s.settings, s.poisson.get(), complaints);
+    }
+    stopOnComplaints(complaints, "Dictionaries, mesh and fields", communicator);
+}
+
+void openDem(scene& s, MPI_Comm communicator)
+{
+    const Foam::fileName casePath = s.runTime().globalPath();
+    const Foam::fileName script(s.settings.demScript);
+    Foam::Info << "LIGGGHTS reads " << script << Foam::endl;
+    s.dem = openLiggghts({script, casePath, script.path()/"log.liggghts", {}}, communicator);
+
+    Complaints complaints = s.dem->check();
+    s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);
+    checkWalls(s.settings, *s.dem, complaints);
+    if (s.poisson) {
+        checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
+    }
+    stopOnComplaints(complaints, "Case and DEM script together", communicator);
+    printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);
+}
+
+}  // namespace him
