@@ -33,8 +33,7 @@ bool onAnyRank(bool holds)
 }
 
 /// Runs `action` and turns what OpenFOAM throws into a complaint. True when nothing was thrown on this rank.
-template <class Action>
-bool attempt(const std::string& where, Complaints& complaints, Action&& action)
+template <class Action> bool attempt(const std::string& where, Complaints& complaints, Action&& action)
 {
     const foamExceptions throwing;
     try {
@@ -50,10 +49,12 @@ void refuseFlatMesh(const Foam::polyMesh& mesh, Complaints& complaints)
 {
     for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
         if (Foam::isA<Foam::emptyPolyPatch>(patch) || Foam::isA<Foam::wedgePolyPatch>(patch)) {
-            complaints.add("constant/polyMesh/boundary: " + patch.name(),
-                           "found a patch of type " + patch.type() + ". Charges are points in three dimensions, and a mesh "
-                           "of one cell depth cannot hold their field. Use a mesh with all three directions; walls or "
-                           "cyclic patches may stand in for the missing ones.");
+            complaints.add(
+                "constant/polyMesh/boundary: " + patch.name(),
+                "found a patch of type " + patch.type()
+                    + ". Charges are points in three dimensions, and a mesh "
+                      "of one cell depth cannot hold their field. Use a mesh with all three directions; walls or "
+                      "cyclic patches may stand in for the missing ones.");
         }
     }
 }
@@ -61,11 +62,11 @@ void refuseFlatMesh(const Foam::polyMesh& mesh, Complaints& complaints)
 void checkSchemes(const Foam::fvMesh& mesh, Complaints& complaints)
 {
     attempt("system/fvSchemes: laplacianSchemes", complaints, [&] {
-        Foam::fv::laplacianScheme<Foam::scalar, Foam::scalar>::New(mesh, mesh.laplacianScheme("laplacian(electricPotential)"));
+        Foam::fv::laplacianScheme<Foam::scalar, Foam::scalar>::New(
+            mesh, mesh.laplacianScheme("laplacian(electricPotential)"));
     });
-    attempt("system/fvSchemes: gradSchemes", complaints, [&] {
-        Foam::fv::gradScheme<Foam::scalar>::New(mesh, mesh.gradScheme("grad(electricPotential)"));
-    });
+    attempt("system/fvSchemes: gradSchemes", complaints,
+            [&] { Foam::fv::gradScheme<Foam::scalar>::New(mesh, mesh.gradScheme("grad(electricPotential)")); });
 }
 
 void checkSolution(const Foam::fileName& casePath, Complaints& complaints)
@@ -92,14 +93,15 @@ void checkSolution(const Foam::fileName& casePath, Complaints& complaints)
 bool cutForThisRun(const Foam::Time& runTime, Complaints& complaints)
 {
     int parts = 0;
-    while (Foam::isDir(runTime.globalPath()/("processor" + std::to_string(parts)))) {
+    while (Foam::isDir(runTime.globalPath() / ("processor" + std::to_string(parts)))) {
         ++parts;
     }
     Foam::Pstream::scatter(parts);
     const int ranks = Foam::Pstream::nProcs();
     if (Foam::Pstream::parRun() && parts > 0 && parts != ranks) {
         complaints.add("processor folders", "the mesh is cut into " + std::to_string(parts) + " parts, but the run has "
-                                            + std::to_string(ranks) + " ranks. Run decomposePar for this number of ranks.");
+                                                + std::to_string(ranks)
+                                                + " ranks. Run decomposePar for this number of ranks.");
         return false;
     }
     return true;
@@ -121,10 +123,11 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
         return nullptr;
     }
     bool complete = true;
-    const Foam::fileName folder = runTime.path()/runTime.constant()/Foam::polyMesh::meshSubDir;
-    if (!onAllRanks(Foam::isFile(folder/"owner"))) {
-        complaints.add("constant/polyMesh", "there is no mesh in " + folder + ", but the field method needs one. Make it with "
-                                            "blockMesh, and cut it with decomposePar for a parallel run.");
+    const Foam::fileName folder = runTime.path() / runTime.constant() / Foam::polyMesh::meshSubDir;
+    if (!onAllRanks(Foam::isFile(folder / "owner"))) {
+        complaints.add("constant/polyMesh", "there is no mesh in " + folder
+                                                + ", but the field method needs one. Make it with "
+                                                  "blockMesh, and cut it with decomposePar for a parallel run.");
         complete = false;
     }
     const std::size_t before = complaints.lines().size();
@@ -137,8 +140,8 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
 
     Foam::autoPtr<Foam::fvMesh> mesh;
     attempt("constant/polyMesh", complaints, [&] {
-        mesh.reset(new Foam::fvMesh(Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime,
-                                                   Foam::IOobject::MUST_READ)));
+        mesh.reset(new Foam::fvMesh(
+            Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)));
     });
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
 }
@@ -152,7 +155,8 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
     const std::string where = mesh.time().timeName() + "/electricPotential";
     Foam::IOobject header("electricPotential", mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ);
     if (!onAllRanks(header.typeHeaderOk<Foam::volScalarField>(true))) {
-        complaints.add(where, "there is no such field (volScalarField) at the start time. It gives the voltage of every patch.");
+        complaints.add(
+            where, "there is no such field (volScalarField) at the start time. It gives the voltage of every patch.");
     }
     if (onAnyRank(complaints.lines().size() > before)) {
         return nullptr;
@@ -191,7 +195,7 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
         if (!mesh) {
             if (target != grounded) {
                 complaints.add(where + wall, "unknown target `" + target + "`; fieldMethod " + settings.field.method
-                                             + " reads no mesh, so the known ones are grounded, noTransfer.");
+                                                 + " reads no mesh, so the known ones are grounded, noTransfer.");
             }
             continue;
         }
@@ -204,12 +208,14 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
         const Foam::label patch = mesh->mesh().boundaryMesh().findPatchID(target);
         if (patch < 0 || mesh->electricPotential().boundaryField()[patch].coupled()) {
             complaints.add(where + wall, "unknown target `" + target + "`; known: the patches " + joined(known)
-                                         + ", and noTransfer.");
+                                             + ", and noTransfer.");
         } else if (!mesh->electricPotential().boundaryField()[patch].fixesValue()) {
             const std::string type = mesh->electricPotential().boundaryField()[patch].type();
-            complaints.add(where + wall, "the potential on patch " + target + " is " + type + ", which does not fix a voltage. "
-                                         "Charge on insulating walls is not modelled: give the patch a fixedValue in "
-                                         "electricPotential, or map the wall to noTransfer.");
+            complaints.add(where + wall,
+                           "the potential on patch " + target + " is " + type
+                               + ", which does not fix a voltage. "
+                                 "Charge on insulating walls is not modelled: give the patch a fixedValue in "
+                                 "electricPotential, or map the wall to noTransfer.");
         }
     }
 }

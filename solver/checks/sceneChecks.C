@@ -33,7 +33,8 @@ std::string shownBox(const Box& box)
 std::vector<std::string> namesOf(const std::vector<DemWall>& walls)
 {
     std::vector<std::string> names;
-    std::transform(walls.begin(), walls.end(), std::back_inserter(names), [](const DemWall& wall) { return wall.name; });
+    std::transform(walls.begin(), walls.end(), std::back_inserter(names),
+                   [](const DemWall& wall) { return wall.name; });
     return names;
 }
 
@@ -53,15 +54,16 @@ void refuseParticlesOutside(const DemParticles& particles, const foamPoissonMesh
         if (!locator.inMesh(row) && ++outside <= namedParticles) {
             const auto p = particles.position.row(row);
             named += (named.empty() ? "" : ", ") + std::string("particle ")
-                     + std::to_string(particles.tag[static_cast<std::size_t>(row)]) + " at (" + shown(p[0]) + " " + shown(p[1])
-                     + " " + shown(p[2]) + ") m";
+                     + std::to_string(particles.tag[static_cast<std::size_t>(row)]) + " at (" + shown(p[0]) + " "
+                     + shown(p[1]) + " " + shown(p[2]) + ") m";
         }
     }
     if (outside > 0) {
         complaints.add("DEM scene", std::to_string(outside) + " particle(s) lie outside the mesh: " + named
-                                    + (outside > namedParticles ? ", ..." : "") + ". The mesh covers "
-                                    + shownBox(mesh.globalBounds()) + ". Move them or enlarge the mesh, or write "
-                                    "particlesOutsideMesh excluded; in constant/couplingProperties.");
+                                        + (outside > namedParticles ? ", ..." : "") + ". The mesh covers "
+                                        + shownBox(mesh.globalBounds())
+                                        + ". Move them or enlarge the mesh, or write "
+                                          "particlesOutsideMesh excluded; in constant/couplingProperties.");
     }
 }
 
@@ -70,14 +72,15 @@ void refuseChargeWithoutVoltage(const caseSettings& settings, const DemPort& dem
 {
     std::array<double, 2> sums{particles.charge.sum(), particles.charge.abs().sum()};
     MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
-    const bool wallsGiveCharge = dem.charging() && std::any_of(settings.walls.begin(), settings.walls.end(), [](const auto& wall) {
-        return wall.second != noTransfer;
-    });
+    const bool wallsGiveCharge = dem.charging()
+                                 && std::any_of(settings.walls.begin(), settings.walls.end(),
+                                                [](const auto& wall) { return wall.second != noTransfer; });
     if (std::abs(sums[0]) > neutrality * sums[1] || wallsGiveCharge) {
-        complaints.add("electricPotential", "no patch fixes the voltage, but the particles "
-                                            + (wallsGiveCharge ? std::string("will be charged at walls")
-                                                               : "carry a net charge of " + shown(sums[0]) + " C")
-                                            + ", and its field lines need somewhere to end. Give one patch a fixedValue.");
+        complaints.add("electricPotential",
+                       "no patch fixes the voltage, but the particles "
+                           + (wallsGiveCharge ? std::string("will be charged at walls")
+                                              : "carry a net charge of " + shown(sums[0]) + " C")
+                           + ", and its field lines need somewhere to end. Give one patch a fixedValue.");
     }
 }
 
@@ -106,7 +109,7 @@ void checkWalls(const caseSettings& settings, const DemPort& dem, Complaints& co
         mapped.push_back(wall);
         if (!contains(demNames, wall)) {
             complaints.add(where + ": " + wall, "the DEM script has no wall of this name; it has: "
-                                                + (demNames.empty() ? "none" : joined(demNames)) + ".");
+                                                    + (demNames.empty() ? "none" : joined(demNames)) + ".");
         }
     }
     std::vector<std::string> unmapped;
@@ -114,7 +117,7 @@ void checkWalls(const caseSettings& settings, const DemPort& dem, Complaints& co
                  [&](const std::string& name) { return !contains(mapped, name); });
     if (!unmapped.empty()) {
         complaints.add(where, "the DEM wall(s) " + joined(unmapped) + " are not in the table. Map each one to "
-                              + (settings.needsMesh ? "a patch" : "grounded") + " or to noTransfer.");
+                                  + (settings.needsMesh ? "a patch" : "grounded") + " or to noTransfer.");
     }
 }
 
@@ -125,7 +128,8 @@ void checkParticlesInMesh(const caseSettings& settings, const DemPort& dem, cons
     dem.particles(particles);
     if (!mesh.globalBounds().overlaps(dem.box())) {
         complaints.add("constant/polyMesh", "the mesh, " + shownBox(mesh.globalBounds()) + ", and the DEM box, "
-                                            + shownBox(dem.box()) + ", do not overlap. Check the units of both (metres).");
+                                                + shownBox(dem.box())
+                                                + ", do not overlap. Check the units of both (metres).");
     } else if (settings.field.outsideMesh == OutsideMesh::error) {
         refuseParticlesOutside(particles, mesh, communicator, complaints);
     }

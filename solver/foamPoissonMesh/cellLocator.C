@@ -130,8 +130,9 @@ Foam::label cellLocator::find(const Vector3& point) const
         if (!cellBox_[static_cast<std::size_t>(cell)].contains(point)) {
             return false;
         }
-        return planeFaced_[static_cast<std::size_t>(cell)] ? insideFacePlanes(position, cell)
-                                                           : mesh_.pointInCell(position, cell, Foam::polyMesh::CELL_TETS);
+        return planeFaced_[static_cast<std::size_t>(cell)]
+                   ? insideFacePlanes(position, cell)
+                   : mesh_.pointInCell(position, cell, Foam::polyMesh::CELL_TETS);
     };
     const auto nearlyHolds = [&](Foam::label cell) {
         return cellBox_[static_cast<std::size_t>(cell)].contains(point)

@@ -5,9 +5,9 @@
 #include "settings/checkedDictionary.H"
 
 #include "extrapolatedCalculatedFvPatchFields.H"
+#include "fvScalarMatrix.H"
 #include "fvcGrad.H"
 #include "fvmLaplacian.H"
-#include "fvScalarMatrix.H"
 
 #include <stdexcept>
 
@@ -44,7 +44,8 @@ double largestDiagonal(const fvMesh& mesh)
     scalar largest = 0;
     for (label cell = 0; cell < mesh.nCells(); ++cell) {
         const labelList& points = mesh.cellPoints()[cell];
-        forAll(points, i) {
+        forAll(points, i)
+        {
             for (label j = 0; j < i; ++j) {
                 largest = max(largest, magSqr(mesh.points()[points[i]] - mesh.points()[points[j]]));
             }
@@ -58,12 +59,15 @@ double largestDiagonal(const fvMesh& mesh)
 foamPoissonMesh::foamPoissonMesh(const Foam::fvMesh& mesh, double permittivity)
     : mesh_(mesh),
       permittivity_("permittivity", dimPermittivity, permittivity),
-      nonOrthogonalCorrectors_(mesh.solutionDict().subOrEmptyDict("HIM").lookupOrDefault("nNonOrthogonalCorrectors", 0)),
+      nonOrthogonalCorrectors_(
+          mesh.solutionDict().subOrEmptyDict("HIM").lookupOrDefault("nNonOrthogonalCorrectors", 0)),
       electricPotential_(fieldIO("electricPotential", mesh, IOobject::MUST_READ), mesh),
       chargeDensity_(fieldIO("chargeDensity", mesh, IOobject::NO_READ), mesh,
-                     dimensionedScalar(dimCharge / dimVolume, Zero), extrapolatedCalculatedFvPatchScalarField::typeName),
+                     dimensionedScalar(dimCharge / dimVolume, Zero),
+                     extrapolatedCalculatedFvPatchScalarField::typeName),
       electricField_(fieldIO("electricField", mesh, IOobject::NO_READ), mesh,
-                     dimensionedVector(dimPotential / dimLength, Zero), extrapolatedCalculatedFvPatchVectorField::typeName),
+                     dimensionedVector(dimPotential / dimLength, Zero),
+                     extrapolatedCalculatedFvPatchVectorField::typeName),
       locator_(mesh),
       localBounds_(boundsOf(mesh.points())),
       largestCellDiagonal_(largestDiagonal(mesh)),
@@ -100,8 +104,9 @@ void foamPoissonMesh::refuseNetCharge(const Scalars& cellCharge) const
     const scalar net = returnReduce(scalar(cellCharge.sum()), sumOp<scalar>());
     const scalar all = returnReduce(scalar(cellCharge.abs().sum()), sumOp<scalar>());
     if (std::abs(net) > neutrality * all) {
-        throw std::runtime_error("no patch of 0/electricPotential fixes the voltage, but the mesh holds a net charge of "
-                                 + shown(net) + " C, whose field lines have nowhere to end. Give one patch a fixedValue.");
+        throw std::runtime_error(
+            "no patch of 0/electricPotential fixes the voltage, but the mesh holds a net charge of " + shown(net)
+            + " C, whose field lines have nowhere to end. Give one patch a fixedValue.");
     }
 }
 
@@ -110,7 +115,8 @@ void foamPoissonMesh::solve(const Scalars& cellCharge)
     if (!potentialIsFixed_) {
         refuseNetCharge(cellCharge);
     }
-    forAll(chargeDensity_, cell) {
+    forAll(chargeDensity_, cell)
+    {
         chargeDensity_[cell] = cellCharge[cell] / mesh_.V()[cell];
     }
     chargeDensity_.correctBoundaryConditions();
@@ -120,11 +126,11 @@ void foamPoissonMesh::solve(const Scalars& cellCharge)
         potentialEqn.setReference(0, 0);  // does nothing where a patch fixes the potential
         const solverPerformance performance = potentialEqn.solve();
         if (!performance.converged()) {
-            throw std::runtime_error(
-                "the potential did not converge: " + performance.solverName() + " stopped after "
-                + std::to_string(performance.nIterations()) + " iterations at a residual of "
-                + shown(performance.finalResidual()) + ". Raise maxIter or tolerance, or choose another solver, in "
-                + "solvers.electricPotential of system/fvSolution.");
+            throw std::runtime_error("the potential did not converge: " + performance.solverName() + " stopped after "
+                                     + std::to_string(performance.nIterations()) + " iterations at a residual of "
+                                     + shown(performance.finalResidual())
+                                     + ". Raise maxIter or tolerance, or choose another solver, in "
+                                     + "solvers.electricPotential of system/fvSolution.");
         }
     }
     electricField_ = -fvc::grad(electricPotential_);

@@ -41,7 +41,8 @@ std::unique_ptr<FieldMethod> handSettingsTo(const scene& s, MPI_Comm communicato
     for (const auto& [wall, target] : s.settings.walls) {
         roles.push_back({wall, target != noTransfer});
     }
-    auto method = FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
+    auto method =
+        FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
     s.dem->setWallRoles(roles);
     s.dem->setWallContactField(s.settings.wallContactField);
     s.dem->setPermittivity(s.settings.field.permittivity);
@@ -59,9 +60,9 @@ void write(scene& s, const CoupledStep& step, particleWriter& particles, PhaseTi
     }
     particles.write(step.particles(), step.field().field);
     if (s.settings.demCheckpoint) {
-        const Foam::fileName folder = Foam::fileName(s.settings.demScript).path()/"restart";
+        const Foam::fileName folder = Foam::fileName(s.settings.demScript).path() / "restart";
         Foam::mkDir(folder);
-        s.dem->writeCheckpoint(folder/s.runTime().timeName());
+        s.dem->writeCheckpoint(folder / s.runTime().timeName());
     }
 }
 

@@ -10,7 +10,7 @@ namespace him {
 
 void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
 {
-    const Foam::fileName casePath = args.rootPath()/args.globalCaseName();
+    const Foam::fileName casePath = args.rootPath() / args.globalCaseName();
     Complaints complaints;
     checkControlDict(casePath, complaints);
     const bool timeOpens = complaints.none();
@@ -38,7 +38,7 @@ void openDem(scene& s, MPI_Comm communicator)
     const Foam::fileName casePath = s.runTime().globalPath();
     const Foam::fileName script(s.settings.demScript);
     Foam::Info << "LIGGGHTS reads " << script << Foam::endl;
-    s.dem = openLiggghts({script, casePath, script.path()/"log.liggghts", {}}, communicator);
+    s.dem = openLiggghts({script, casePath, script.path() / "log.liggghts", {}}, communicator);
 
     Complaints complaints = s.dem->check();
     s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);

@@ -13,9 +13,9 @@ chargeTable::chargeTable(const Foam::Time& runTime, const std::vector<DemWall>& 
     if (!Foam::Pstream::master()) {
         return;
     }
-    const Foam::fileName folder = runTime.globalPath()/"postProcessing"/"charge"/runTime.timeName();
+    const Foam::fileName folder = runTime.globalPath() / "postProcessing" / "charge" / runTime.timeName();
     Foam::mkDir(folder);
-    file_.open(folder/"charge.dat");
+    file_.open(folder / "charge.dat");
     file_.precision(12);
     file_ << "# Charge on the particles and given to the walls since the start. SI units: s, C, V/m, J.\n"
           << "# min, mean, max: of one particle. A column named after a DEM wall: charge given to it.\n"

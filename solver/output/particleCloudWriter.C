@@ -15,7 +15,8 @@ void writeField(const Foam::passiveParticleCloud& cloud, const std::vector<parti
 {
     Foam::IOField<Value> values(cloud.fieldIOobject(name, Foam::IOobject::NO_READ),
                                 static_cast<Foam::label>(records.size()));
-    forAll(values, i) {
+    forAll(values, i)
+    {
         values[i] = read(records[static_cast<std::size_t>(i)]);
     }
     values.write(!records.empty());

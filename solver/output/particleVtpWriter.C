@@ -29,7 +29,7 @@ void writeArray(std::ostream& stream, const std::vector<particleRecord>& records
 }  // namespace
 
 particleVtpWriter::particleVtpWriter(const Foam::Time& runTime, MPI_Comm communicator)
-    : runTime_(runTime), exchange_(communicator), folder_(runTime.globalPath()/"postProcessing"/"particles")
+    : runTime_(runTime), exchange_(communicator), folder_(runTime.globalPath() / "postProcessing" / "particles")
 {
     if (exchange_.rank() == 0) {
         Foam::mkDir(folder_);
@@ -39,11 +39,11 @@ particleVtpWriter::particleVtpWriter(const Foam::Time& runTime, MPI_Comm communi
 void particleVtpWriter::write(const DemParticles& particles, const Points& field)
 {
     const auto rows = static_cast<std::size_t>(particles.size());
-    const std::vector<particleRecord> records = collectRecords(particles, field, std::vector<int>(rows, 0),
-                                                               std::vector<long>(rows, -1), exchange_);
+    const std::vector<particleRecord> records =
+        collectRecords(particles, field, std::vector<int>(rows, 0), std::vector<long>(rows, -1), exchange_);
     if (exchange_.rank() == 0) {
         const Foam::fileName file = runTime_.timeName() + ".vtp";
-        writeFile(records, folder_/file);
+        writeFile(records, folder_ / file);
         written_.emplace_back(file, runTime_.value());
         writeSeries();
     }
@@ -53,8 +53,10 @@ void particleVtpWriter::writeFile(const std::vector<particleRecord>& records, co
 {
     std::ofstream stream(file);
     stream.precision(12);
-    stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
-           << "<Piece NumberOfPoints=\"" << records.size() << "\" NumberOfVerts=\"" << records.size() << "\">\n<Points>\n";
+    stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+              "byte_order=\"LittleEndian\">\n<PolyData>\n"
+           << "<Piece NumberOfPoints=\"" << records.size() << "\" NumberOfVerts=\"" << records.size()
+           << "\">\n<Points>\n";
     writeArray(stream, records, "Float64", "position", 3, [](const particleRecord& r) { return r.position; });
     stream << "</Points>\n<PointData Scalars=\"charge\" Vectors=\"U\">\n";
     writeArray(stream, records, "Float64", "charge", 1, [](const particleRecord& r) { return r.charge; });
@@ -72,7 +74,7 @@ void particleVtpWriter::writeFile(const std::vector<particleRecord>& records, co
 
 void particleVtpWriter::writeSeries() const
 {
-    std::ofstream stream(folder_/"particles.vtp.series");
+    std::ofstream stream(folder_ / "particles.vtp.series");
     stream << "{ \"file-series-version\" : \"1.0\", \"files\" : [\n";
     for (std::size_t i = 0; i < written_.size(); ++i) {
         stream << "{ \"name\" : \"" << written_[i].first << "\", \"time\" : " << written_[i].second << " }"

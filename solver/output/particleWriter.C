@@ -29,9 +29,14 @@ std::vector<particleRecord> collectRecords(const DemParticles& particles, const 
         if (targetRanks[n] < 0) {
             continue;
         }
-        const particleRecord record{static_cast<double>(particles.tag[n]), static_cast<double>(particles.type[n]),
-                                    static_cast<double>(cells[n]), particles.charge[i], particles.radius[i],
-                                    row(particles.position, i), row(particles.velocity, i), row(field, i)};
+        const particleRecord record{static_cast<double>(particles.tag[n]),
+                                    static_cast<double>(particles.type[n]),
+                                    static_cast<double>(cells[n]),
+                                    particles.charge[i],
+                                    particles.radius[i],
+                                    row(particles.position, i),
+                                    row(particles.velocity, i),
+                                    row(field, i)};
         const auto* begin = reinterpret_cast<const double*>(&record);
         std::vector<double>& buffer = outgoing[static_cast<std::size_t>(targetRanks[n])];
         buffer.insert(buffer.end(), begin, begin + doublesPerRecord);

@@ -8,8 +8,8 @@
 
 namespace him {
 
-using Foam::Info;
 using Foam::endl;
+using Foam::Info;
 
 namespace {
 
@@ -99,9 +99,10 @@ void runReport::endStep(const CoupledStep& step)
     }
     const StepSummary& summary = step.summary();
     const auto number = [](double value) { return formatted("%.6g", value); };
-    std::string line = "Charge: total " + number(summary.totalCharge) + " C, particle min " + number(summary.smallestCharge)
-                       + " max " + number(summary.largestCharge) + " C, largest field " + number(summary.largestField)
-                       + " V/m, books " + formatted("%.2g", step.books().relativeClosureError());
+    std::string line = "Charge: total " + number(summary.totalCharge) + " C, particle min "
+                       + number(summary.smallestCharge) + " max " + number(summary.largestCharge) + " C, largest field "
+                       + number(summary.largestField) + " V/m, books "
+                       + formatted("%.2g", step.books().relativeClosureError());
     if (summary.excludedCount > 0) {
         line += ", outside the mesh " + std::to_string(summary.excludedCount) + " particle(s) with "
                 + number(summary.excludedCharge) + " C";
@@ -138,7 +139,8 @@ void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Co
     line("shares of time", shares(seconds, wall));
     line("particles", std::to_string(step.summary().particles));
     line("total charge [C]", formatted("%.6g", step.summary().totalCharge));
-    line("contacts with particles, walls", formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));
+    line("contacts with particles, walls",
+         formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));
     line("largest relaxation number", formatted("%.3g", contacts.largestRelaxation));
     line("charge books, closure error [C]", formatted("%.3g", step.books().closureError()));
     line("charge books, relative error", formatted("%.3g", step.books().relativeClosureError()));

@@ -47,8 +47,8 @@ std::string wallTable(const caseSettings& settings, const DemPort& dem, const fo
 {
     std::ostringstream table;
     const auto line = [&table](const wallRow& row) {
-        table << "    " << std::left << std::setw(16) << row.wall << std::setw(12) << row.shape << std::setw(16) << row.target
-              << std::setw(28) << row.kind << std::setw(12) << row.model << row.charging << '\n';
+        table << "    " << std::left << std::setw(16) << row.wall << std::setw(12) << row.shape << std::setw(16)
+              << row.target << std::setw(28) << row.kind << std::setw(12) << row.model << row.charging << '\n';
     };
     line({"wall", "shape", "patch", "kind", "model", "charging"});
     for (const DemWall& wall : dem.walls()) {
@@ -61,13 +61,16 @@ std::string wallTable(const caseSettings& settings, const DemPort& dem, const fo
 
 }  // namespace
 
-void printScene(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh, double deltaT, long demSteps)
+void printScene(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh, double deltaT,
+                long demSteps)
 {
     using Foam::Info;
     const FieldSettings& field = settings.field;
-    Info << "\nWalls\n" << wallTable(settings, dem, mesh).c_str() << "\nContact charging\n" << dem.chargingDescription().c_str()
-         << "\n    field at wall contacts: " << (settings.wallContactField == WallContactField::total ? "total" : "self")
-         << "\n\nField method " << field.method.c_str();
+    Info << "\nWalls\n"
+         << wallTable(settings, dem, mesh).c_str() << "\nContact charging\n"
+         << dem.chargingDescription().c_str() << "\n    field at wall contacts: "
+         << (settings.wallContactField == WallContactField::total ? "total" : "self") << "\n\nField method "
+         << field.method.c_str();
     if (FieldMethod::needsCutoff(field.method)) {
         Info << ", nearCutoff " << field.nearCutoff << " m";
     }

@@ -48,21 +48,24 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
 {
     caseSettings settings;
     settings.field = readFieldSettings(casePath, complaints);
-    settings.needsMesh = settings.field.method.empty() ? existsInCase(casePath/"constant"/"polyMesh")
+    settings.needsMesh = settings.field.method.empty() ? existsInCase(casePath / "constant" / "polyMesh")
                                                        : FieldMethod::needsMesh(settings.field.method);
 
     checkedDictionary properties(casePath, "constant/couplingProperties", complaints);
     const std::string script = properties.text("demScript");
-    settings.demScript = casePath/script;
+    settings.demScript = casePath / script;
     if (!script.empty() && !existsInCase(settings.demScript)) {
-        properties.complain("demScript", "there is no file " + settings.demScript + ". Give the path of the LIGGGHTS script "
-                                         "relative to the case.");
+        properties.complain("demScript", "there is no file " + settings.demScript
+                                             + ". Give the path of the LIGGGHTS script "
+                                               "relative to the case.");
     }
     settings.walls = properties.section("walls").words();
     settings.wallContactField = properties.oneOf("wallContactField", {"total", "self"}, "total") == "self"
-                                    ? WallContactField::self : WallContactField::total;
+                                    ? WallContactField::self
+                                    : WallContactField::total;
     settings.field.outsideMesh = properties.oneOf("particlesOutsideMesh", {"error", "excluded"}, "error") == "excluded"
-                                     ? OutsideMesh::excluded : OutsideMesh::error;
+                                     ? OutsideMesh::excluded
+                                     : OutsideMesh::error;
     settings.allowRemovals = properties.yesNo("allowRemovals", false);
     settings.demCheckpoint = properties.yesNo("demCheckpoint", true);
     settings.logInterval = properties.positiveInteger("logInterval", 1);

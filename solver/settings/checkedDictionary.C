@@ -61,14 +61,14 @@ std::string shown(double value, int digits)
 checkedDictionary::checkedDictionary(const Foam::fileName& casePath, const Foam::fileName& file, Complaints& complaints)
     : where_(file), readable_(false), complaints_(complaints)
 {
-    const std::optional<Foam::string> text = textOf(casePath/file);
+    const std::optional<Foam::string> text = textOf(casePath / file);
     if (!text) {
         complaints.add(where_, "there is no such file in the case " + casePath + ".");
         return;
     }
     const foamExceptions throwing;
     try {
-        Foam::IStringStream stream(*text, Foam::IOstream::ASCII, Foam::IOstream::currentVersion, casePath/file);
+        Foam::IStringStream stream(*text, Foam::IOstream::ASCII, Foam::IOstream::currentVersion, casePath / file);
         contents_ = Foam::dictionary(stream);
         contents_.remove("FoamFile");
         readable_ = true;
