@@ -38,7 +38,11 @@ void openDem(scene& s, MPI_Comm communicator)
     const Foam::fileName casePath = s.runTime().globalPath();
     const Foam::fileName script(s.settings.demScript);
     Foam::Info << "LIGGGHTS reads " << script << Foam::endl;
-    s.dem = openLiggghts({script, casePath, script.path() / "log.liggghts", {}}, communicator);
+    DemOptions options;
+    options.script = script;
+    options.directory = casePath;
+    options.logFile = script.path() / "log.liggghts";
+    s.dem = openLiggghts(options, communicator);
 
     Complaints complaints = s.dem->check();
     s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);
