@@ -35,7 +35,7 @@ class Camera:
         return self.width/2 + self.scale*(relative @ self.right), self.height/2 - self.scale*(relative @ self.up)
 
     def hidden(self, point, depth):
-        """Whether a sphere or the floor stands in front of a point."""
+        """Whether a sphere, the floor or the slice stands in front of a point."""
         relative = np.asarray(point) - [0, 0, CONTAINER_HEIGHT/2]
         column, row = (np.clip(p.astype(int), 0, size - 1) for p, size in zip(self.pixel(point), (self.width, self.height)))
         return depth[row, column] < relative @ self.forward + DISTANCE - 2e-4
@@ -151,6 +151,7 @@ def render(camera, positions, colours, plane, plane_colour, levels):
         for shift in (1, 2):
             line |= band != np.roll(band, shift, axis)
     image = blend(image, np.array([0.10, 0.13, 0.25]), np.where(line & visible, 0.45, 0.0))
+    depth = np.where(visible, t, depth)
     edge = on & (np.minimum(np.minimum(CONTAINER_RADIUS - np.abs(s), z), CONTAINER_HEIGHT - z) < 1.3/camera.scale)
     image = blend(image, np.array([0.15, 0.17, 0.25]), np.where(edge & visible, 0.8, 0.0))
 
