@@ -8,12 +8,12 @@
 
 namespace him {
 
-void ChargeBooks::open(double particleCharge, double absoluteCharge)
+void ChargeBooks::open(double particleCharge, double absoluteCharge, const ChargeMovements& earlier)
 {
-    opening_ = particleCharge;
-    particleCharge_ = particleCharge;
-    scale_ = absoluteCharge;
-    movements_ = {};
+    opening_ = 0;
+    scale_ = 0;
+    post(particleCharge, absoluteCharge, earlier);
+    opening_ = closureError();
 }
 
 void ChargeBooks::post(double particleCharge, double absoluteCharge, const ChargeMovements& movements)

@@ -5,12 +5,13 @@
 
 namespace him {
 
-/// Where the charge is and where it came from since the hand-over:
+/// Where the charge is and where it came from since the hand-over (of the first run, when this one continues it):
 /// particles(t) = opening + inserted - removed - leaked - breakdown - sum over walls of what each wall was given.
 class ChargeBooks {
 public:
-    /// Opens the books with the charge [C] on the particles and the sum of its absolute values.
-    void open(double particleCharge, double absoluteCharge);
+    /// Opens the books with the charge [C] on the particles, the sum of its absolute values, and the movements that a
+    /// continued run starts with.
+    void open(double particleCharge, double absoluteCharge, const ChargeMovements& earlier = {});
     /// New entries: charge on the particles now, sum of absolute charges, and all movements since the hand-over.
     void post(double particleCharge, double absoluteCharge, const ChargeMovements& movements);
 

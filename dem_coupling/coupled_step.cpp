@@ -40,7 +40,7 @@ void CoupledStep::updateField()
     method_.compute(particles_, field_);
     summarise();
     if (!booksOpen_) {
-        books_.open(summary_.totalCharge, absoluteCharge_);
+        books_.open(summary_.totalCharge, absoluteCharge_, dem_.movements());
         booksOpen_ = true;
     } else {
         books_.post(summary_.totalCharge, absoluteCharge_, dem_.movements());

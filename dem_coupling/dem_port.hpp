@@ -8,6 +8,7 @@
 #include <memory>
 #include <mpi.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace him {
@@ -99,6 +100,8 @@ public:
     // --- the books
     virtual ChargeMovements movements() const = 0;
     virtual ContactCounts contacts() const = 0;
+    /// Writes a restart file. The next run() computes all forces anew, as a run from that file does, so that both go on
+    /// bit for bit alike.
     virtual void writeCheckpoint(const std::string& file) = 0;
 };
 
@@ -106,6 +109,8 @@ struct DemOptions {
     std::string script;       ///< path of the LIGGGHTS script
     std::string directory;    ///< directory in which its relative paths are meant
     std::string logFile;      ///< LIGGGHTS log
+    /// LIGGGHTS index variables that the script finds set, name and value (as `-var name value` on its command line).
+    std::vector<std::pair<std::string, std::string>> variables;
 };
 
 /// Starts LIGGGHTS, registers our styles and reads the script. LIGGGHTS' own message reaches stdout when it rejects

@@ -103,6 +103,7 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
     }
     nevery = 1;
     create_attribute = 1;
+    just_created = 0;   // otherwise the first set-up would call set_arrays for particles that are already there
     comm_forward = 2;
     restart_peratom = 1;
     restart_global = 1;

@@ -26,6 +26,7 @@ FixCoupleCfdEfield::FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* liggghts, int narg, ch
         error->fix_error(FLERR, this, "needs charged particles: write 'atom_style hybrid granular charge'");
     }
     create_attribute = 1;
+    just_created = 0;   // otherwise the first set-up would call set_arrays for particles that are already there
     comm_forward = width;
     comm_border = width;
     peratom_flag = 1;
@@ -55,7 +56,9 @@ void FixCoupleCfdEfield::setField(const Points& field)
         }
         held_[i][6] = atom->q[i];
     }
-    comm->forward_comm_fix(this);
+    if (ghostsExist_) {
+        comm->forward_comm_fix(this);
+    }
 }
 
 int FixCoupleCfdEfield::setmask()
@@ -65,6 +68,7 @@ int FixCoupleCfdEfield::setmask()
 
 void FixCoupleCfdEfield::setup(int flag)
 {
+    ghostsExist_ = true;
     post_force(flag);
 }
 

@@ -18,7 +18,8 @@ public:
     FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
     ~FixCoupleCfdEfield() override;
 
-    /// Field [V/m] at the owned particles, in the order of their rows. Collective: ghosts get it too.
+    /// Field [V/m] at the owned particles, in the order of their rows. Collective: ghosts get it too, before the first set-up
+    /// when they are made.
     void setField(const Points& field);
     /// Per row, see HeldField.
     const double* const* held() const { return held_; }
@@ -40,6 +41,7 @@ public:
 
 private:
     double** held_ = nullptr;
+    bool ghostsExist_ = false;
     std::int64_t arrivals_ = 0;
 };
 

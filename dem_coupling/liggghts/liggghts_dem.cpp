@@ -27,10 +27,15 @@ constexpr const char* fieldFixId = "himFoamElectricField";
 
 std::unique_ptr<LAMMPS_NS::LAMMPS> start(const DemOptions& options, MPI_Comm communicator)
 {
-    std::string log = options.logFile.empty() ? "none" : options.logFile;
-    char program[] = "himFoam", logFlag[] = "-log", screenFlag[] = "-screen", devNull[] = "/dev/null";
-    char* arguments[] = {program, logFlag, log.data(), screenFlag, devNull};
-    return std::make_unique<LAMMPS_NS::LAMMPS>(5, arguments, communicator);
+    std::vector<std::string> words{"himFoam", "-log", options.logFile.empty() ? "none" : options.logFile, "-screen", "/dev/null"};
+    for (const auto& [name, value] : options.variables) {
+        words.insert(words.end(), {"-var", name, value});
+    }
+    std::vector<char*> arguments;
+    for (std::string& word : words) {
+        arguments.push_back(word.data());
+    }
+    return std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator);
 }
 
 }  // namespace
@@ -251,7 +256,8 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field)
 void LiggghtsDem::run(long steps)
 {
     const Account before = account();
-    command("run " + std::to_string(steps) + " pre no post no");
+    command("run " + std::to_string(steps) + (setUpNext_ ? " pre yes" : " pre no") + " post no");
+    setUpNext_ = false;
     countParticles(before);
 }
 
@@ -303,6 +309,7 @@ ContactCounts LiggghtsDem::contacts() const
 void LiggghtsDem::writeCheckpoint(const std::string& file)
 {
     command("write_restart " + file);
+    setUpNext_ = true;
 }
 
 }  // namespace him

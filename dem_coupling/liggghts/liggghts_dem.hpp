@@ -63,6 +63,7 @@ private:
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
     FixCoupleCfdEfield* field_ = nullptr;
+    bool setUpNext_ = false;   ///< the next run() computes the forces of its first step anew
     bool removalsAllowed_ = false;
     std::int64_t expected_ = 0;
     double removed_ = 0;   ///< charge of particles taken out since the hand-over, all ranks [C]

@@ -42,6 +42,7 @@ void openDem(scene& s, MPI_Comm communicator)
     options.script = script;
     options.directory = casePath;
     options.logFile = script.path() / "log.liggghts";
+    options.variables = {{"startTime", s.runTime().timeName()}};
     s.dem = openLiggghts(options, communicator);
 
     Complaints complaints = s.dem->check();

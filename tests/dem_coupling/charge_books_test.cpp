@@ -59,6 +59,19 @@ TEST(ChargeBooks, measureTheErrorAgainstTheLargestChargeThatEverWasThere)
     EXPECT_NEAR(books.relativeClosureError(), 1e-18 / 16e-9, 1e-20);
 }
 
+TEST(ChargeBooks, ofAContinuedRunGoOnFromItsEarlierMovements)
+{
+    ChargeBooks books;
+    ChargeMovements moved = someMovements();
+    books.open(-7e-9, 9e-9, moved);
+    EXPECT_NEAR(books.relativeClosureError(), 0, 1e-15);
+    moved.toWall[0] += 1e-9;
+    books.post(-8e-9, 9e-9, moved);
+    EXPECT_NEAR(books.relativeClosureError(), 0, 1e-15);
+    books.post(-7e-9, 9e-9, moved);
+    EXPECT_NEAR(books.closureError(), 1e-9, 1e-22);
+}
+
 TEST(ChargeBooks, areNeverOpenWithoutCharge)
 {
     ChargeBooks books;
