@@ -3,6 +3,7 @@
 
 #include "dem_coupling/liggghts/contact_models.hpp"
 #include "dem_coupling/liggghts/fix_registry.hpp"
+#include "dem_coupling/liggghts/private_access.hpp"
 
 #include "atom.h"
 #include "domain.h"
@@ -20,6 +21,13 @@
 #include <unistd.h>
 
 namespace him {
+
+struct CurrentCommand {
+    using Member = char* LAMMPS_NS::Input::*;
+    friend Member memberOf(CurrentCommand);
+};
+template struct PrivateMember<CurrentCommand, &LAMMPS_NS::Input::command>;
+
 namespace {
 
 /// Id of the field fix that the host adds to the user's script.
@@ -36,6 +44,16 @@ std::unique_ptr<LAMMPS_NS::LAMMPS> start(const DemOptions& options, MPI_Comm com
         arguments.push_back(word.data());
     }
     return std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator);
+}
+
+/// The command that LIGGGHTS is carrying out, with its arguments.
+std::string scriptLine(const LAMMPS_NS::Input& input)
+{
+    std::string line = input.*memberOf(CurrentCommand{});
+    for (int i = 0; i < input.narg; ++i) {
+        line += std::string(" ") + input.arg[i];
+    }
+    return line;
 }
 
 }  // namespace
@@ -58,6 +76,9 @@ LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
         std::fclose(lmp_->screen);
         screen_ = std::make_unique<LiggghtsScreen>();
         lmp_->screen = screen_->stream();
+        static char nothingYet[] = "";
+        lmp_->input->*memberOf(CurrentCommand{}) = nothingYet;
+        screen_->setScriptLine([this] { return scriptLine(*lmp_->input); });
     }
     registerFixes(lmp_.get());
     lmp_->input->file(script_.c_str());

@@ -55,6 +55,9 @@ void LiggghtsScreen::writeLine(const std::string& line) const
         std::fprintf(stdout, "This combination of contact models was not built with charging. Known: %s.\n",
                      knownContactModels().c_str());
     }
+    if (error && !quiet_ && scriptLine_) {
+        std::fprintf(stdout, "The script line was: %s\n", scriptLine_().c_str());
+    }
     std::fflush(stdout);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <string>
 
 namespace him {
@@ -17,6 +18,8 @@ public:
     /// Owned by LIGGGHTS once handed over: it closes its screen itself.
     std::FILE* stream() const { return stream_; }
     void quiet() { quiet_ = true; }
+    /// What gives the script line that is being carried out, for errors while the script is read.
+    void setScriptLine(std::function<std::string()> scriptLine) { scriptLine_ = std::move(scriptLine); }
     void write(const char* text, std::size_t size);
 
 private:
@@ -24,6 +27,7 @@ private:
 
     std::FILE* stream_;
     std::string line_;
+    std::function<std::string()> scriptLine_;
     bool quiet_ = false;
 };
 

@@ -164,11 +164,11 @@ class BadInput(unittest.TestCase):
 
     def test_the_message_of_liggghts_is_visible_in_a_file(self):
         self.case.replace(SCRIPT, "pair_coeff * *", "pair_coefficients * *")
-        self.refused("LIGGGHTS reads", "Unknown command: pair_coefficients * *")
+        self.refused("LIGGGHTS reads", "Unknown command: pair_coefficients * *", "The script line was: pair_coefficients * *")
 
     def test_negative_radius(self):
         self.case.replace(SCRIPT, "set atom 1 diameter 0.004", "set atom 1 diameter -0.004")
-        self.refused("ERROR")
+        self.refused("ERROR", "The script line was: set atom 1 diameter -0.004")
 
     # --- stage 3: case and scene together
 
