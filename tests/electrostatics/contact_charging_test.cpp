@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 
 namespace him {
@@ -26,6 +27,8 @@ struct WallImpact {
     double radius, density, modulus, poisson, speed;  // R Table 2
     double efficiency, charge, saturation;            // R Table 1
     double frozen, updated, measured;                 // [C]
+
+    friend std::ostream& operator<<(std::ostream& out, const WallImpact& impact) { return out << impact.name; }
 };
 
 class MeasuredWallImpact : public testing::TestWithParam<WallImpact> {};

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shaker's short version passes its own check, and charges alike on one and two ranks."""
+
+import math
+import pathlib
+import shutil
+import statistics
+import subprocess
+import tempfile
+import unittest
+
+CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+SEEDS = (10007, 10009, 10037, 10039, 10061)   # LIGGGHTS wants primes above 10000
+
+
+class VibratoryShaker(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        copy = pathlib.Path(folder.name)
+        shutil.copy(CASES / "RunFunctions", copy)
+        self.case = copy / "vibratoryShaker"
+        shutil.copytree(CASES / "vibratoryShaker", self.case, ignore=shutil.ignore_patterns("runs", "study", "doc", "*.png"))
+
+    def run_case(self, *options):
+        done = subprocess.run(["./Allrun", *options], cwd=self.case, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              encoding="utf-8", timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:])
+        return done.stdout
+
+    def final_charge(self, *options):
+        """Charge of all spheres [C] after one second."""
+        self.run_case("-no-total", "-endTime", "1", *options)
+        lines = (self.case / "runs/self/postProcessing/charge/0/charge.dat").read_text().splitlines()
+        return float(lines[-1].split()[1])
+
+    def test_short_version_passes_its_check_and_draws_its_pictures(self):
+        text = self.run_case("-short")
+        self.assertIn("closure error of the books", text)
+        self.assertNotIn("FAILED", text)
+        for picture in ("bulkCharge.png", "particleCharge.png", "container.png"):
+            self.assertGreater((self.case / picture).stat().st_size, 20000, picture)
+
+    def test_two_ranks_charge_like_one_within_the_scatter_of_seeds(self):
+        serial = [self.final_charge("-seed", str(seed)) for seed in SEEDS]
+        parallel = [self.final_charge("-seed", str(seed), "-np", "2") for seed in SEEDS]
+        error = math.sqrt((statistics.variance(serial) + statistics.variance(parallel)) / len(SEEDS))
+        difference = statistics.mean(parallel) - statistics.mean(serial)
+        self.assertLess(abs(difference), 4 * error, "serial %s, parallel %s" % (serial, parallel))
+        self.assertLess(error, 0.05 * abs(statistics.mean(serial)), "a scatter this large would hide any difference")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
