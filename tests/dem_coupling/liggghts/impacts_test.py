@@ -18,10 +18,9 @@ def falling(x=0.0, y=0.0, charge=CHARGE):
     return [(x, y, PTFE["radius"] + 5e-5, 0.0, 0.0, -SPEED, charge)]
 
 
-def impact(walls=PLANE, files=None, particles=None, **options):
+def impact(walls=PLANE, files=None, particles=None, ranks=1, charging=CHARGING, **options):
     steps = int(1.6e-4 / (0.05 * rayleigh_step(PTFE)))
-    return Run(script(particles or falling(), walls, options.pop("charging", CHARGING), **options), steps, files=files,
-               ranks=options.pop("ranks", 1) if "ranks" in options else 1)
+    return Run(script(particles or falling(), walls, charging, **options), steps, ranks, files)
 
 
 class WallImpact(unittest.TestCase):
@@ -76,6 +75,22 @@ class WallImpact(unittest.TestCase):
             with self.subTest(name):
                 self.assertAlmostEqual((run.charge() - CHARGE) / self.reference, 1, delta=5e-3)
 
+    def test_a_ball_that_changes_rank_or_period_in_mid_contact_gains_the_same_charge(self):
+        # 0.5 m/s sideways carries it over x = 0 (a rank boundary) or x = 0.02 (a periodic face) within the contact of
+        # 42 us; neighbour lists are built anew in every step, so that it migrates at once.
+        every_step = "neigh_modify every 1 delay 0 check no\n"
+        still = impact(after=every_step).charge() - CHARGE
+        scenes = {"primitive wall, rank boundary": (PLANE, -2.0e-5), "mesh wall, rank boundary": (MESH, -2.0e-5),
+                  "primitive wall, periodic face": (PLANE, 0.02 - 2.0e-5)}   # LIGGGHTS meshes end at periodic faces
+        for name, (walls, x) in scenes.items():
+            start = [(x, 1e-4, PTFE["radius"] + 5e-5, 0.5, 0.0, -SPEED, CHARGE)]
+            for ranks, grid in ((1, "1 1 1"), (2, "2 1 1"), (4, "2 2 1")):
+                run = impact(walls, {"floor.stl": plate(size=0.0199, cells=7)}, start, ranks, boundary="p p f", grid=grid,
+                             after=every_step)
+                with self.subTest(f"{name}, {ranks} ranks"):
+                    self.assertGreater(abs(run.last[1]["x"] - x), 2.0e-5, "the ball must have crossed")
+                    self.assertAlmostEqual((run.charge() - CHARGE) / still, 1, delta=1e-9)
+
     def test_every_contact_model_combination_charges(self):
         for model in ("model hertz tangential history", "model hertz tangential no_history"):
             for rolling in ("", "rolling_friction cdt", "rolling_friction epsd2"):
@@ -110,7 +125,8 @@ class PairImpact(unittest.TestCase):
     def pair(self, left, right, ranks=1, boundary="p p p", y=0.0):
         speed = 1.71 * math.cos(0.33)
         particles = [(left, y, 0.0, speed, 0.0, 0.0, self.difference), (right, y, 0.0, 0.0, 0.0, 0.0, 0.0)]
-        return Run(script(particles, "", self.charging, boundary=boundary, material=PA66, step=2e-7), 1500, ranks)
+        grid = {1: "1 1 1", 2: "2 1 1", 4: "2 2 1"}[ranks]
+        return Run(script(particles, "", self.charging, boundary=boundary, material=PA66, step=2e-7, grid=grid), 1500, ranks)
 
     def moved(self, run):
         return self.difference - run.charge(1)
@@ -120,10 +136,34 @@ class PairImpact(unittest.TestCase):
         self.assertAlmostEqual(self.moved(run) / 8.522e-13, 1, delta=2e-3)
         self.assertAlmostEqual((run.charge(1) + run.charge(2)) / self.difference, 1, delta=1e-15)
 
+    def test_overlap_and_area_of_two_spheres_are_those_of_hertz(self):
+        # delta = (15 m* v^2 / (16 Y* sqrt(r*)))^0.4, A = pi r* delta
+        radius, speed = PA66["radius"], 1.71 * math.cos(0.33)
+        mass = 4 / 3 * math.pi * radius ** 3 * PA66["density"] / 2
+        modulus = PA66["young"] / (2 * (1 - PA66["poisson"] ** 2))
+        exact = (15 * mass * speed ** 2 / (16 * modulus * math.sqrt(radius / 2))) ** 0.4
+        particles = [(-1.62e-3, 0.0, 0.0, speed, 0.0, 0.0, 0.0), (1.62e-3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)]
+        run = Run(script(particles, "", self.charging, material=PA66, step=2e-7), 1500, dump_every=1)
+        overlap = 2 * radius - min(frame[2]["x"] - frame[1]["x"] for frame in run.frames)
+        self.assertAlmostEqual(overlap / exact, 1, delta=2e-3)
+
+    def test_a_pair_that_changes_ranks_in_mid_contact_moves_the_same_charge(self):
+        # Both spheres drift over y = 0, a boundary of four ranks, while they touch; lists are built anew in every step.
+        speed = 1.71 * math.cos(0.33)
+        moved = {}
+        for ranks, drift, grid in ((1, 0.0, "1 1 1"), (1, 0.5, "1 1 1"), (4, 0.5, "2 2 1")):
+            particles = [(-1.62e-3, -3e-5, 0.0, speed, drift, 0.0, self.difference), (1.62e-3, -3e-5, 0.0, 0.0, drift, 0.0, 0.0)]
+            run = Run(script(particles, "", self.charging, boundary="p p p", material=PA66, step=2e-7, grid=grid,
+                             after="neigh_modify every 1 delay 0 check no\n"), 1500, ranks)
+            moved[ranks, drift] = self.moved(run)
+            self.assertAlmostEqual((run.charge(1) + run.charge(2)) / self.difference, 1, delta=1e-14)
+        self.assertAlmostEqual(moved[1, 0.5] / moved[1, 0.0], 1, delta=1e-9)
+        self.assertAlmostEqual(moved[4, 0.5] / moved[1, 0.5], 1, delta=1e-12)
+
     def test_rank_boundaries_change_no_bit(self):
         alone = self.pair(-1.62e-3, 1.62e-3)
         for ranks in (2, 4):
-            run = self.pair(-1.62e-3, 1.62e-3, ranks)
+            run = self.pair(-1.62e-3, 1.62e-3, ranks)   # cut at x = 0, between the two
             with self.subTest(ranks=ranks):
                 self.assertEqual(alone.last, run.last)
 

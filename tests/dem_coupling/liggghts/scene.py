@@ -23,8 +23,9 @@ def rayleigh_step(material):
 
 def script(particles, walls="", charging="", box=(-0.02, 0.02), boundary="f f f", material=PTFE, wall_material=RIGID,
            restitution=1.0, step=None, cohesion="charge", model="model hertz tangential history", before="",
-           after="", rolling="", friction=0.065):
-    """A script with particle type 1 and wall type 2. `particles` are (x, y, z, vx, vy, vz, charge)."""
+           after="", rolling="", friction=0.065, grid="* * *"):
+    """A script with particle type 1 and wall type 2. `particles` are (x, y, z, vx, vy, vz, charge); `grid` is how the box is
+    cut for the ranks."""
     step = step or 0.05 * rayleigh_step(material)
     lines = f"""
 units si
@@ -33,6 +34,7 @@ atom_modify map array
 boundary {boundary}
 newton off
 communicate single vel yes
+processors {grid}
 region box block {box[0]} {box[1]} {box[0]} {box[1]} {box[0]} {box[1]} units box
 create_box 2 box
 neighbor {0.5 * material['radius']} bin
