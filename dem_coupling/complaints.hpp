@@ -10,10 +10,7 @@ namespace him {
 /// (file and entry), what was found, what is allowed and what to do.
 class Complaints {
 public:
-    void add(const std::string& where, const std::string& what)
-    {
-        lines_.push_back(where + ": " + what);
-    }
+    void add(const std::string& where, const std::string& what) { lines_.push_back(where + ": " + what); }
     void add(const Complaints& others) { lines_.insert(lines_.end(), others.lines_.begin(), others.lines_.end()); }
     bool none() const { return lines_.empty(); }
     const std::vector<std::string>& lines() const { return lines_; }

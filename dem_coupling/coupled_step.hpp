@@ -13,12 +13,12 @@ namespace him {
 /// Global numbers of one field update, equal on every rank.
 struct StepSummary {
     std::int64_t particles = 0;
-    double totalCharge = 0;       ///< [C]
-    double smallestCharge = 0;    ///< [C]
-    double largestCharge = 0;     ///< [C]
-    double largestField = 0;      ///< [V/m]
-    double energy = 0;            ///< electrostatic [J], see ParticleField::energy; NaN when the method has no potential
-    double kineticEnergy = 0;     ///< translational [J]
+    double totalCharge = 0;     ///< [C]
+    double smallestCharge = 0;  ///< [C]
+    double largestCharge = 0;   ///< [C]
+    double largestField = 0;    ///< [V/m]
+    double energy = 0;          ///< electrostatic [J], see ParticleField::energy; NaN when the method has no potential
+    double kineticEnergy = 0;   ///< translational [J]
     std::int64_t excludedCount = 0;  ///< particles outside the mesh
     double excludedCharge = 0;       ///< [C]
 };

@@ -15,28 +15,28 @@ namespace him {
 
 /// The particles that this rank's DEM owns. Row order is the DEM's own and may change with every run().
 struct DemParticles {
-    std::vector<int> tag;     ///< unique over all ranks, from 1
-    std::vector<int> type;    ///< DEM atom type, from 1
-    Points position;          ///< [m]
-    Points velocity;          ///< [m/s]
-    Scalars charge;           ///< [C]
-    Scalars radius;           ///< [m]
-    Scalars mass;             ///< [kg]
+    std::vector<int> tag;   ///< unique over all ranks, from 1
+    std::vector<int> type;  ///< DEM atom type, from 1
+    Points position;        ///< [m]
+    Points velocity;        ///< [m/s]
+    Scalars charge;         ///< [C]
+    Scalars radius;         ///< [m]
+    Scalars mass;           ///< [kg]
 
     Index size() const { return static_cast<Index>(tag.size()); }
 };
 
 /// One wall of the DEM scene: a primitive wall fix, or one mesh of a mesh wall fix.
 struct DemWall {
-    std::string name;          ///< id of the primitive wall fix or of the mesh fix
-    std::string shape;         ///< "zplane", "zcylinder", ..., or "mesh"
-    int type = 0;              ///< DEM atom type of its material
-    bool chargingModel = false;///< its contact model records contacts for charging
+    std::string name;            ///< id of the primitive wall fix or of the mesh fix
+    std::string shape;           ///< "zplane", "zcylinder", ..., or "mesh"
+    int type = 0;                ///< DEM atom type of its material
+    bool chargingModel = false;  ///< its contact model records contacts for charging
 };
 
 /// How a DEM wall takes part in charging, decided by the case.
 struct WallRole {
-    std::string name;          ///< DemWall::name
+    std::string name;  ///< DemWall::name
     bool transfersCharge = true;
 };
 
@@ -45,16 +45,16 @@ enum class WallContactField { total, self };
 
 /// Charge that has left or entered the particles since the hand-over [C], summed over ranks.
 struct ChargeMovements {
-    std::vector<double> toWall;    ///< one per wall, in the order of DemPort::walls()
-    double inserted = 0;           ///< carried by particles that appeared
-    double removed = 0;            ///< carried by particles that were taken out
-    double leaked = 0;             ///< lost to ground through leakage
-    double breakdown = 0;          ///< lost to dielectric breakdown
+    std::vector<double> toWall;  ///< one per wall, in the order of DemPort::walls()
+    double inserted = 0;         ///< carried by particles that appeared
+    double removed = 0;          ///< carried by particles that were taken out
+    double leaked = 0;           ///< lost to ground through leakage
+    double breakdown = 0;        ///< lost to dielectric breakdown
 };
 
 /// Contact statistics since the hand-over, summed over ranks.
 struct ContactCounts {
-    double particleParticle = 0;   ///< contacts that began
+    double particleParticle = 0;  ///< contacts that began
     double particleWall = 0;
     double largestRelaxation = 0;  ///< largest x of one step; above 0.5 the frozen law may overshoot
 };
@@ -65,20 +65,20 @@ public:
     virtual ~DemPort() = default;
 
     // --- the scene, valid after construction
-    virtual double timeStep() const = 0;                       ///< [s]
-    virtual Box box() const = 0;                               ///< whole DEM box [m]
+    virtual double timeStep() const = 0;  ///< [s]
+    virtual Box box() const = 0;          ///< whole DEM box [m]
     virtual std::array<bool, 3> periodic() const = 0;
     virtual const std::vector<DemWall>& walls() const = 0;
-    virtual bool charging() const = 0;                         ///< the script asks for contact charging
-    virtual std::string chargingDescription() const = 0;       ///< the pair table for the log, several lines
+    virtual bool charging() const = 0;                    ///< the script asks for contact charging
+    virtual std::string chargingDescription() const = 0;  ///< the pair table for the log, several lines
     /// What in the scene can not be simulated (missing Gamma for a type pair, coarse graining, wrong units, ...).
     virtual Complaints check() const = 0;
-    virtual bool ranBeforeHandOver() const = 0;                ///< the script contained `run`
+    virtual bool ranBeforeHandOver() const = 0;  ///< the script contained `run`
 
     // --- settings, before the first run()
     virtual void setWallRoles(const std::vector<WallRole>& roles) = 0;
     virtual void setWallContactField(WallContactField field) = 0;
-    virtual void setPermittivity(double permittivity) = 0;     ///< [F/m]
+    virtual void setPermittivity(double permittivity) = 0;  ///< [F/m]
     /// Distance [m] up to which the field handed over by setField contains the Coulomb field of a particle's neighbour;
     /// infinity for a full pair sum. Needed to take the contact partner out of it.
     virtual void setPartnerCutoff(double cutoff) = 0;
@@ -88,7 +88,7 @@ public:
     virtual void handOver() = 0;
 
     // --- the run
-    virtual void particles(DemParticles& out) const = 0;       ///< this rank's particles, not collective
+    virtual void particles(DemParticles& out) const = 0;  ///< this rank's particles, not collective
     /// Hands over the field [V/m] of the particles last given by particles(), in the same order, together with the
     /// positions and charges that made it.
     virtual void setField(const DemParticles& particles, const Points& field) = 0;
@@ -106,9 +106,9 @@ public:
 };
 
 struct DemOptions {
-    std::string script;       ///< path of the LIGGGHTS script
-    std::string directory;    ///< directory in which its relative paths are meant
-    std::string logFile;      ///< LIGGGHTS log
+    std::string script;     ///< path of the LIGGGHTS script
+    std::string directory;  ///< directory in which its relative paths are meant
+    std::string logFile;    ///< LIGGGHTS log
     /// LIGGGHTS index variables that the script finds set, name and value (as `-var name value` on its command line).
     std::vector<std::pair<std::string, std::string>> variables;
 };

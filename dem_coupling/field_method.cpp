@@ -31,7 +31,8 @@ const std::vector<Method>& methods()
 
 const Method* find(const std::string& name)
 {
-    const auto found = std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
+    const auto found =
+        std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
     return found == methods().end() ? nullptr : &*found;
 }
 
@@ -55,8 +56,8 @@ const Method& get(const std::string& name)
 
 constexpr const char* file = "electrostaticProperties";
 
-void checkCutoff(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox, const std::array<bool, 3>& periodic,
-                 Complaints& complaints)
+void checkCutoff(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox,
+                 const std::array<bool, 3>& periodic, Complaints& complaints)
 {
     const std::string entry = std::string(file) + "." + settings.method + "Coeffs.nearCutoff";
     const double cutoff = settings.nearCutoff;
@@ -77,8 +78,8 @@ void checkCutoff(const FieldSettings& settings, const PoissonMesh* mesh, const B
     for (int axis = 0; axis < 3; ++axis) {
         if (periodic[static_cast<std::size_t>(axis)] && cutoff > demBox.size()[axis]) {
             std::ostringstream tooLong;
-            tooLong << cutoff << " m is longer than the periodic DEM box in " << "xyz"[axis] << ", " << demBox.size()[axis]
-                    << " m. Use at most that, or a larger box";
+            tooLong << cutoff << " m is longer than the periodic DEM box in "
+                    << "xyz"[axis] << ", " << demBox.size()[axis] << " m. Use at most that, or a larger box";
             complaints.add(entry, tooLong.str());
         }
     }
@@ -98,9 +99,15 @@ const std::vector<std::string>& FieldMethod::names()
     return list;
 }
 
-bool FieldMethod::needsMesh(const std::string& name) { return get(name).needsMesh; }
+bool FieldMethod::needsMesh(const std::string& name)
+{
+    return get(name).needsMesh;
+}
 
-bool FieldMethod::needsCutoff(const std::string& name) { return get(name).needsCutoff; }
+bool FieldMethod::needsCutoff(const std::string& name)
+{
+    return get(name).needsCutoff;
+}
 
 Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox,
                               const std::array<bool, 3>& periodic)
@@ -118,20 +125,23 @@ Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* 
         return complaints;
     }
     if (method->needsMesh && !mesh) {
-        complaints.add(entry, settings.method + " needs a mesh, and the case has none. Make one in constant/polyMesh, or use "
-                              "pairwiseSum or directTruncation");
+        complaints.add(entry, settings.method
+                                  + " needs a mesh, and the case has none. Make one in constant/polyMesh, or use "
+                                    "pairwiseSum or directTruncation");
     }
     if (method->needsCutoff) {
         checkCutoff(settings, method->needsMesh ? mesh : nullptr, demBox, periodic, complaints);
     } else if (periodic[0] || periodic[1] || periodic[2]) {
-        complaints.add(entry, settings.method + " sums every pair once, and in a periodic DEM box every charge has infinitely "
-                              "many copies. Use a DEM box without periodic directions, or another field method");
+        complaints.add(entry, settings.method
+                                  + " sums every pair once, and in a periodic DEM box every charge has infinitely "
+                                    "many copies. Use a DEM box without periodic directions, or another field method");
     }
     return complaints;
 }
 
 std::unique_ptr<FieldMethod> FieldMethod::create(const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
-                                                 const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times)
+                                                 const std::array<bool, 3>& periodic, MPI_Comm communicator,
+                                                 PhaseTimes& times)
 {
     const Complaints complaints = check(settings, mesh, demBox, periodic);
     if (!complaints.none()) {

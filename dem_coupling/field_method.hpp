@@ -14,17 +14,17 @@ namespace him {
 
 /// What to do with a particle that the DEM still has but that no mesh cell holds.
 enum class OutsideMesh {
-    error,     ///< stop and name the particle
-    excluded   ///< it neither gives charge to the mesh nor sees the mesh field; counted and reported
+    error,    ///< stop and name the particle
+    excluded  ///< it neither gives charge to the mesh nor sees the mesh field; counted and reported
 };
 
 /// Field at this rank's particles, in the order of DemParticles.
 struct ParticleField {
-    Points field;                 ///< [V/m], own self-field excluded
-    Scalars potential;            ///< [V], without the own Coulomb term; empty when the method has none
-    double excludedCharge = 0;    ///< [C] of particles outside the mesh, all ranks
+    Points field;               ///< [V/m], own self-field excluded
+    Scalars potential;          ///< [V], without the own Coulomb term; empty when the method has none
+    double excludedCharge = 0;  ///< [C] of particles outside the mesh, all ranks
     std::int64_t excludedCount = 0;
-    std::int64_t pairs = 0;       ///< near pairs, all ranks
+    std::int64_t pairs = 0;  ///< near pairs, all ranks
     /// Electrostatic energy [J] of this rank's particles: 1/2 sum q V of the charges' own potential plus sum q V of the
     /// external field; NaN when the method has no potential.
     double energy = 0;
@@ -32,9 +32,9 @@ struct ParticleField {
 
 /// Settings of every method; a method reads only what it knows.
 struct FieldSettings {
-    std::string method;                  ///< run-time selected name
-    double nearCutoff = 0;               ///< r_c [m]
-    double permittivity = 0;             ///< eps [F/m]
+    std::string method;                       ///< run-time selected name
+    double nearCutoff = 0;                    ///< r_c [m]
+    double permittivity = 0;                  ///< eps [F/m]
     Vector3 externalField = Vector3::Zero();  ///< [V/m], added to every method's field
     OutsideMesh outsideMesh = OutsideMesh::error;
 };
@@ -57,7 +57,8 @@ public:
     /// The method of that name. Throws std::invalid_argument with all complaints of check(); an unknown name lists the
     /// known ones. `mesh` may be null for a method that needs none and outlives the method. Collective.
     static std::unique_ptr<FieldMethod> create(const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
-                                               const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times);
+                                               const std::array<bool, 3>& periodic, MPI_Comm communicator,
+                                               PhaseTimes& times);
 
     /// Field of all charges at these particles, plus the external field. Throws std::runtime_error, the same on every
     /// rank, when two particles share a position or one is outside a mesh that should hold it.

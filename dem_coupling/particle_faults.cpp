@@ -32,7 +32,8 @@ std::vector<int> gatherTags(const std::vector<int>& tags, const SparseExchange& 
         offsets[r] = offsets[r - 1] + counts[r - 1];
     }
     std::vector<int> all(ranks.rank() == 0 ? static_cast<std::size_t>(offsets.back() + counts.back()) : 0);
-    MPI_Gatherv(tags.data(), mine, MPI_INT, all.data(), counts.data(), offsets.data(), MPI_INT, 0, ranks.communicator());
+    MPI_Gatherv(tags.data(), mine, MPI_INT, all.data(), counts.data(), offsets.data(), MPI_INT, 0,
+                ranks.communicator());
     std::sort(all.begin(), all.end());
     return all;
 }
@@ -55,7 +56,10 @@ std::vector<double> statesOf(const std::vector<int>& tags, const DemParticles& p
     return states;
 }
 
-bool finite(const Points& points, Index row) { return points.row(row).isFinite().all(); }
+bool finite(const Points& points, Index row)
+{
+    return points.row(row).isFinite().all();
+}
 
 /// Where the particle of that tag was at the last field update, if this rank had it.
 std::string lastSeen(int tag, const DemParticles& before)
@@ -65,19 +69,21 @@ std::string lastSeen(int tag, const DemParticles& before)
         return "";
     }
     const Index row = found - before.tag.begin();
-    return "; at the last field update it was at " + words(before.position.row(row).matrix().transpose()) + " m with velocity "
-           + words(before.velocity.row(row).matrix().transpose()) + " m/s";
+    return "; at the last field update it was at " + words(before.position.row(row).matrix().transpose())
+           + " m with velocity " + words(before.velocity.row(row).matrix().transpose()) + " m/s";
 }
 
 }  // namespace
 
-void throwOnLostParticles(const DemParticles& now, const DemParticles& before, std::int64_t believed, MPI_Comm communicator)
+void throwOnLostParticles(const DemParticles& now, const DemParticles& before, std::int64_t believed,
+                          MPI_Comm communicator)
 {
     const SparseExchange ranks(communicator);
     const std::vector<int> tagsNow = gatherTags(now.tag, ranks);
     const std::vector<int> tagsBefore = gatherTags(before.tag, ranks);
     std::vector<int> missing;
-    std::set_difference(tagsBefore.begin(), tagsBefore.end(), tagsNow.begin(), tagsNow.end(), std::back_inserter(missing));
+    std::set_difference(tagsBefore.begin(), tagsBefore.end(), tagsNow.begin(), tagsNow.end(),
+                        std::back_inserter(missing));
     std::array<int, 3> sizes{static_cast<int>(tagsNow.size()), static_cast<int>(missing.size()),
                              std::min(static_cast<int>(missing.size()), mostNamed)};
     MPI_Bcast(sizes.data(), 3, MPI_INT, 0, communicator);
@@ -95,7 +101,8 @@ void throwOnLostParticles(const DemParticles& now, const DemParticles& before, s
     if (sizes[1] > sizes[2]) {
         text << "\n  and " << sizes[1] - sizes[2] << " more";
     }
-    text << "\nCheck the DEM `timestep` (a particle may have passed through a wall), that the walls are closed, and that the"
+    text << "\nCheck the DEM `timestep` (a particle may have passed through a wall), that the walls are closed, and "
+            "that the"
             " DEM box is larger than the walls or its `boundary` is not f where particles may leave";
     throw std::runtime_error(text.str());
 }
@@ -104,7 +111,8 @@ std::int64_t countBadParticles(const DemParticles& particles)
 {
     std::int64_t bad = 0;
     for (Index row = 0; row < particles.size(); ++row) {
-        bad += !(finite(particles.position, row) && finite(particles.velocity, row) && std::isfinite(particles.charge[row]));
+        bad += !(finite(particles.position, row) && finite(particles.velocity, row)
+                 && std::isfinite(particles.charge[row]));
     }
     return bad;
 }
@@ -122,13 +130,17 @@ void throwOnBadParticles(const DemParticles& now, const DemParticles& before, MP
         }
         tag = candidate;
         std::ostringstream line;
-        line << "particle " << tag << ": its " << (!place ? "position" : !speed ? "velocity" : "charge")
-               << " is not a finite number; position " << words(now.position.row(row).matrix().transpose()) << " m, velocity "
-               << words(now.velocity.row(row).matrix().transpose()) << " m/s, charge " << now.charge[row] << " C"
-               << lastSeen(tag, before) << ". Check "
-               << (place && speed ? "gamma and kappa of the charging fix in the DEM script"
-                                  : "the DEM `timestep` and the stiffness of the materials in the DEM script, and particles "
-                                    "that overlap when they are created");
+        line << "particle " << tag << ": its "
+             << (!place   ? "position"
+                 : !speed ? "velocity"
+                          : "charge")
+             << " is not a finite number; position " << words(now.position.row(row).matrix().transpose())
+             << " m, velocity " << words(now.velocity.row(row).matrix().transpose()) << " m/s, charge "
+             << now.charge[row] << " C" << lastSeen(tag, before) << ". Check "
+             << (place && speed
+                     ? "gamma and kappa of the charging fix in the DEM script"
+                     : "the DEM `timestep` and the stiffness of the materials in the DEM script, and particles "
+                       "that overlap when they are created");
         text = line.str();
     }
     throwTogether(communicator, tag, text);
@@ -153,7 +165,8 @@ void throwOnBadFields(const DemParticles& particles, const Points& field, MPI_Co
             tag = candidate;
             text = "particle " + std::to_string(tag) + " at " + words(particles.position.row(row).matrix().transpose())
                    + " m: the electric field " + words(field.row(row).matrix().transpose())
-                   + " V/m is not finite. Check the boundary values of 0/electricPotential, its solver in system/fvSolution, "
+                   + " V/m is not finite. Check the boundary values of 0/electricPotential, its solver in "
+                     "system/fvSolution, "
                      "and externalField in constant/electrostaticProperties";
         }
     }
@@ -170,12 +183,13 @@ void stopOnOpenBooks(const ChargeBooks& books)
     text.precision(12);
     text << "the charge books do not close: " << books.closureError() << " C on the particles has no entry ("
          << books.relativeClosureError() << " of all charge, allowed " << ChargeBooks::tolerance << ").\n  particles "
-         << books.particleCharge() << " C, inserted " << moved.inserted << " C, removed " << moved.removed << " C, leaked "
-         << moved.leaked << " C, breakdown " << moved.breakdown << " C";
+         << books.particleCharge() << " C, inserted " << moved.inserted << " C, removed " << moved.removed
+         << " C, leaked " << moved.leaked << " C, breakdown " << moved.breakdown << " C";
     for (std::size_t wall = 0; wall < moved.toWall.size(); ++wall) {
         text << ", to wall " << wall + 1 << ' ' << moved.toWall[wall] << " C";
     }
-    text << ".\nSomething other than contacts changed particle charges: look in the DEM script for a fix or variable that sets "
+    text << ".\nSomething other than contacts changed particle charges: look in the DEM script for a fix or variable "
+            "that sets "
             "`charge` after the hand-over";
     throw std::runtime_error(text.str());
 }

@@ -47,13 +47,15 @@ void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<Growi
         relaxationSums_[contact.first] += relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.first]);
         // The owner of a ghost sums its contacts itself.
         if (contact.second < rows.local) {
-            relaxationSums_[contact.second] += relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.second]);
+            relaxationSums_[contact.second] +=
+                relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.second]);
         }
     }
     for (const GrowingWallContact& contact : wallContacts) {
         const ChargingPair& law = pairs_.of(rows.type[contact.particle], wallTypes_[contact.wall]);
         if (law.transfers && wallTransfers_[contact.wall]) {
-            relaxationSums_[contact.particle] += relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.particle]);
+            relaxationSums_[contact.particle] +=
+                relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.particle]);
         }
     }
 }
@@ -72,7 +74,7 @@ double ChargeTransfer::fieldAtContact(const DemRows& rows, int a, int b, const d
         shorten_(box_, apart);
     }
     const double distance = std::sqrt(dot(apart, apart));
-    double along = 0;   // (x_a - x_b).n / (4 pi eps r^3) [m^-2 m/F]
+    double along = 0;  // (x_a - x_b).n / (4 pi eps r^3) [m^-2 m/F]
     if (distance > 0 && distance <= partnerCutoff_) {
         along = coulomb_ * dot(apart, normal) / (distance * distance * distance);
     }
@@ -98,7 +100,8 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         const double relaxation = pairRelaxation(relaxationSums_[a], relaxationSums_[b],
                                                  relaxationNumber(law.efficiency, contact.growth, rows.radius[a]),
                                                  relaxationNumber(law.efficiency, contact.growth, rows.radius[b]));
-        const ContactDrive drive{law.transferLimit, ownField(rows, a), ownField(rows, b), fieldAtContact(rows, a, b, normal)};
+        const ContactDrive drive{law.transferLimit, ownField(rows, a), ownField(rows, b),
+                                 fieldAtContact(rows, a, b, normal)};
         const double toA = chargeGained(drive, relaxation, law.efficiency, contact.growth, permittivity_);
         if (a < rows.local) {
             gained_[a] += toA;

@@ -4,8 +4,8 @@
 #include "dem_coupling/charging/charging_pairs.hpp"
 #include "dem_coupling/charging/compensated_sum.hpp"
 #include "dem_coupling/charging/contact_recorder.hpp"
-#include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/charging/wall_contact_memory.hpp"
+#include "dem_coupling/dem_port.hpp"
 
 #include <limits>
 #include <vector>
@@ -15,7 +15,7 @@ namespace him {
 /// The field handed to the DEM, per row, with the positions and charges that made it: Ex, Ey, Ez [V/m], x, y, z [m], q [C].
 struct HeldField {
     static constexpr int width = 7;
-    const double* const* rows = nullptr;   ///< null when the scene has no field
+    const double* const* rows = nullptr;  ///< null when the scene has no field
 };
 
 /// The DEM's arrays of one step. Rows [0, local) are owned, [local, all) are ghosts.
@@ -24,8 +24,8 @@ struct DemRows {
     int all = 0;
     const int* tag = nullptr;
     const int* type = nullptr;
-    const double* radius = nullptr;   ///< [m]
-    double* charge = nullptr;         ///< [C]
+    const double* radius = nullptr;  ///< [m]
+    double* charge = nullptr;        ///< [C]
     HeldField held;
 };
 
@@ -33,7 +33,10 @@ struct DemRows {
 /// particle, evaluated in tag order, so that both ranks of a contact get bit-opposite numbers, and applied once.
 class ChargeTransfer {
 public:
-    ChargeTransfer(ChargingPairs pairs, double permittivity) : pairs_(std::move(pairs)) { setPermittivity(permittivity); }
+    ChargeTransfer(ChargingPairs pairs, double permittivity) : pairs_(std::move(pairs))
+    {
+        setPermittivity(permittivity);
+    }
 
     void setPermittivity(double permittivity);
     void setWallContactField(WallContactField field) { wallField_ = field; }
@@ -56,7 +59,8 @@ public:
     std::vector<double>& relaxationSums() { return relaxationSums_; }
 
     /// Second half: computes every contact's charge, then applies all of it to the owned rows.
-    void move(const DemRows& rows, const std::vector<GrowingPair>& pairs, const std::vector<GrowingWallContact>& wallContacts);
+    void move(const DemRows& rows, const std::vector<GrowingPair>& pairs,
+              const std::vector<GrowingWallContact>& wallContacts);
 
     /// Charge given to each wall by this rank [C].
     std::vector<CompensatedSum>& toWall() { return toWall_; }
@@ -69,7 +73,7 @@ private:
 
     ChargingPairs pairs_;
     double permittivity_ = 0;
-    double coulomb_ = 0;   ///< 1/(4 pi eps) [m/F]
+    double coulomb_ = 0;  ///< 1/(4 pi eps) [m/F]
     WallContactField wallField_ = WallContactField::total;
     double partnerCutoff_ = std::numeric_limits<double>::infinity();
     void (*shorten_)(void*, double*) = nullptr;

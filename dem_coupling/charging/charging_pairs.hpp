@@ -11,16 +11,16 @@ namespace him {
 
 /// What counts when a contact that was unloaded grows again.
 enum class Reloading {
-    counted,        ///< every growth moves charge (A, R, S)
-    beyondMaximum   ///< only growth beyond the largest area of this contact
+    counted,       ///< every growth moves charge (A, R, S)
+    beyondMaximum  ///< only growth beyond the largest area of this contact
 };
 
 /// Charging of one ordered pair of DEM types.
 struct ChargingPair {
-    bool given = false;       ///< the script said something about this pair
-    bool transfers = false;   ///< charge moves
-    double transferLimit = 0; ///< Gamma_ij [V/m]: positive drives charge to the first type; Gamma_ji = -Gamma_ij
-    double efficiency = 0;    ///< kappa_c [-]
+    bool given = false;        ///< the script said something about this pair
+    bool transfers = false;    ///< charge moves
+    double transferLimit = 0;  ///< Gamma_ij [V/m]: positive drives charge to the first type; Gamma_ji = -Gamma_ij
+    double efficiency = 0;     ///< kappa_c [-]
 };
 
 /// The charging laws of a scene, per pair of DEM types (wall materials are types too).
@@ -47,7 +47,10 @@ public:
                               const std::string& where, Complaints& complaints) const;
 
 private:
-    ChargingPair& at(int first, int second) { return pairs_[static_cast<std::size_t>(first - 1) * types_ + (second - 1)]; }
+    ChargingPair& at(int first, int second)
+    {
+        return pairs_[static_cast<std::size_t>(first - 1) * types_ + (second - 1)];
+    }
     void claim(int first, int second);
 
     int types_;

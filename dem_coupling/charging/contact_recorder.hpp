@@ -10,18 +10,18 @@ namespace him {
 
 /// A particle-particle contact whose area grew in this step. Rows are those of the DEM's local and ghost particles.
 struct GrowingPair {
-    int first;           ///< a particle of this rank
-    int second;          ///< its partner, maybe a ghost
-    double growth;       ///< dA > 0 [m2]
-    double normal[3];    ///< unit vector from first to second
+    int first;         ///< a particle of this rank
+    int second;        ///< its partner, maybe a ghost
+    double growth;     ///< dA > 0 [m2]
+    double normal[3];  ///< unit vector from first to second
 };
 
 /// A particle that touches a wall in this step, growing or not. On a mesh wall one touch per facet.
 struct WallTouch {
     int particle;
-    int wall;            ///< row of the wall list
-    double area;         ///< [m2]
-    double normal[3];    ///< unit vector from the particle into the wall
+    int wall;          ///< row of the wall list
+    double area;       ///< [m2]
+    double normal[3];  ///< unit vector from the particle into the wall
 };
 
 /// What the contact model writes down during a force computation and the charging fix works off at the end of the step.
@@ -31,7 +31,7 @@ struct ContactRecorder {
     Reloading reloading = Reloading::counted;
     std::vector<GrowingPair> pairs;
     std::vector<WallTouch> touches;
-    std::int64_t pairsBegun = 0;   ///< contacts that began in this step and that this rank counts
+    std::int64_t pairsBegun = 0;  ///< contacts that began in this step and that this rank counts
 
     void clear()
     {

@@ -100,7 +100,8 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
             const double reference = reloading == Reloading::counted ? contact.area : contact.largestArea;
             const double growth = contact.newArea - reference;
             if (growth > 0) {
-                growing.push_back({row, contact.wall, growth, {contact.normal[0], contact.normal[1], contact.normal[2]}});
+                growing.push_back(
+                    {row, contact.wall, growth, {contact.normal[0], contact.normal[1], contact.normal[2]}});
             }
             contact.area = contact.newArea;
             contact.largestArea = std::max(contact.largestArea, contact.newArea);

@@ -12,8 +12,8 @@ namespace him {
 struct GrowingWallContact {
     int particle;
     int wall;
-    double growth;      ///< dA > 0 [m2]
-    double normal[3];   ///< from the particle into the wall
+    double growth;     ///< dA > 0 [m2]
+    double normal[3];  ///< from the particle into the wall
 };
 
 /// Contact areas of the last step per (particle, wall, direction). LIGGGHTS keeps contact history per triangle and does
@@ -42,10 +42,10 @@ public:
 private:
     struct Contact {
         int wall;
-        double area;          ///< at the last step [m2]
-        double largestArea;   ///< [m2]
+        double area;         ///< at the last step [m2]
+        double largestArea;  ///< [m2]
         double normal[3];
-        double newArea;       ///< of this step; negative until a touch is seen
+        double newArea;  ///< of this step; negative until a touch is seen
     };
     static constexpr std::size_t contactDoubles = 6;
 

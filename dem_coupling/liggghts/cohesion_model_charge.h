@@ -15,8 +15,7 @@ COHESION_MODEL(COHESION_CHARGE, charge, 40)
 namespace LIGGGHTS {
 namespace ContactModels {
 
-template <>
-class CohesionModel<COHESION_CHARGE> : public CohesionModelBase {
+template <> class CohesionModel<COHESION_CHARGE> : public CohesionModelBase {
 public:
     CohesionModel(LAMMPS* lmp, IContactHistorySetup* setup, ContactModelBase* model)
         : CohesionModelBase(lmp, setup, model), recording_(lmp, setup, model->is_wall())

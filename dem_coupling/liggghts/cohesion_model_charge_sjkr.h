@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact model `charge/sjkr`: LIGGGHTS' SJKR cohesion together with the record of growing contacts.
 #ifdef COHESION_MODEL
-COHESION_MODEL(COHESION_CHARGE_SJKR, charge/sjkr, 41)
+COHESION_MODEL(COHESION_CHARGE_SJKR, charge / sjkr, 41)
 #else
 
 #ifndef HIMFOAM_COHESION_MODEL_CHARGE_SJKR_H
@@ -14,8 +14,7 @@ COHESION_MODEL(COHESION_CHARGE_SJKR, charge/sjkr, 41)
 namespace LIGGGHTS {
 namespace ContactModels {
 
-template <>
-class CohesionModel<COHESION_CHARGE_SJKR> : public CohesionModel<COHESION_SJKR> {
+template <> class CohesionModel<COHESION_CHARGE_SJKR> : public CohesionModel<COHESION_SJKR> {
     using Sjkr = CohesionModel<COHESION_SJKR>;
 
 public:

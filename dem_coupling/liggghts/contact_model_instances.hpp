@@ -27,8 +27,7 @@ namespace him {
 namespace models = LIGGGHTS::ContactModels;
 
 /// Registers one combination of contact models for pairs and for walls.
-template <int normal, int tangential, int cohesion, int rolling>
-void registerCombination()
+template <int normal, int tangential, int cohesion, int rolling> void registerCombination()
 {
     using Style = models::GranStyle<normal, tangential, cohesion, rolling, models::SURFACE_DEFAULT>;
     using Model = models::ContactModel<Style>;
@@ -37,19 +36,16 @@ void registerCombination()
 
     LIGGGHTS::PairStyles::Factory::instance().addStyle(
         "gran", Style::HASHCODE,
-        +[](LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::PairGran* parent, std::int64_t hash) -> LIGGGHTS::PairStyles::IGranularPairStyle* {
-            return new PairStyle(lmp, parent, hash);
-        });
+        +[](LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::PairGran* parent, std::int64_t hash)
+            -> LIGGGHTS::PairStyles::IGranularPairStyle* { return new PairStyle(lmp, parent, hash); });
     LIGGGHTS::Walls::Factory::instance().addStyle(
         "gran", Style::HASHCODE,
-        +[](LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixWallGran* parent, std::int64_t hash) -> LIGGGHTS::Walls::IGranularWall* {
-            return new WallStyle(lmp, parent, hash);
-        });
+        +[](LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixWallGran* parent,
+            std::int64_t hash) -> LIGGGHTS::Walls::IGranularWall* { return new WallStyle(lmp, parent, hash); });
 }
 
 /// All tangential and rolling models with one normal and one cohesion model.
-template <int normal, int cohesion>
-void registerCombinations()
+template <int normal, int cohesion> void registerCombinations()
 {
     registerCombination<normal, models::TANGENTIAL_HISTORY, cohesion, models::ROLLING_OFF>();
     registerCombination<normal, models::TANGENTIAL_HISTORY, cohesion, models::ROLLING_CDT>();

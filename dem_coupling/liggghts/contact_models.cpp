@@ -18,7 +18,8 @@ void registerContactModels()
 
 std::string knownContactModels()
 {
-    return "model hertz|hooke, tangential history|no_history, rolling_friction off|cdt|epsd2, cohesion charge|charge/sjkr";
+    return "model hertz|hooke, tangential history|no_history, rolling_friction off|cdt|epsd2, cohesion "
+           "charge|charge/sjkr";
 }
 
 }  // namespace him

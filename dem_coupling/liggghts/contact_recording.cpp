@@ -34,7 +34,8 @@ void ContactRecording::connect(const char* model)
     }
     fix_ = FixChargeGranContact::find(lmp);
     if (!fix_) {
-        error->all(FLERR, "contact model 'cohesion charge' needs a 'fix <id> all charge/gran/contact ...' in the script");
+        error->all(FLERR,
+                   "contact model 'cohesion charge' needs a 'fix <id> all charge/gran/contact ...' in the script");
     }
     fix_->refreshWalls();
     recorder_ = &fix_->recorder();
@@ -63,7 +64,7 @@ void ContactRecording::recordPair(const SurfacesIntersectData& data)
     const double growth = area - (recorder_->reloading == Reloading::counted ? lastArea : largestArea);
 
     if (largestArea == 0 && (data.j < atom->nlocal || atom->tag[data.i] < atom->tag[data.j])) {
-        ++recorder_->pairsBegun;   // a contact over a rank boundary is seen twice and counted by the lower tag
+        ++recorder_->pairsBegun;  // a contact over a rank boundary is seen twice and counted by the lower tag
     }
     lastArea = area;
     largestArea = std::max(largestArea, area);

@@ -39,8 +39,8 @@ private:
     void recordWall(const LIGGGHTS::ContactModels::SurfacesIntersectData& data);
 
     bool wall_;
-    const LAMMPS_NS::Fix* wallFix_ = nullptr;   ///< the wall fix that owns this model; null for pairs
-    int history_ = -1;                          ///< first of two values per pair contact: area, largest area [m2]
+    const LAMMPS_NS::Fix* wallFix_ = nullptr;  ///< the wall fix that owns this model; null for pairs
+    int history_ = -1;                         ///< first of two values per pair contact: area, largest area [m2]
     FixChargeGranContact* fix_ = nullptr;
     ContactRecorder* recorder_ = nullptr;
 };

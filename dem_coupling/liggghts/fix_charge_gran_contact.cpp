@@ -41,11 +41,16 @@ FixChargeGranContact::Options FixChargeGranContact::readOptions(int narg, char**
     const auto expect = [&](const char* keyword, const std::string& after) {
         const std::string found = word(after);
         if (found != keyword) {
-            throw std::invalid_argument("expected '" + std::string(keyword) + "' after '" + after + "', found '" + found + "'");
+            throw std::invalid_argument("expected '" + std::string(keyword) + "' after '" + after + "', found '" + found
+                                        + "'");
         }
     };
-    const auto number = [&](const std::string& after) { return force->numeric(FLERR, const_cast<char*>(word(after).c_str())); };
-    const auto type = [&](const std::string& after) { return force->inumeric(FLERR, const_cast<char*>(word(after).c_str())); };
+    const auto number = [&](const std::string& after) {
+        return force->numeric(FLERR, const_cast<char*>(word(after).c_str()));
+    };
+    const auto type = [&](const std::string& after) {
+        return force->inumeric(FLERR, const_cast<char*>(word(after).c_str()));
+    };
 
     while (next < narg) {
         const std::string keyword = word("");
@@ -60,7 +65,8 @@ FixChargeGranContact::Options FixChargeGranContact::readOptions(int narg, char**
                 expect("kappa", "gamma <V/m>");
                 options.pairs.set(first, second, gamma, number("kappa"));
             } else {
-                throw std::invalid_argument("after 'pair I J' comes 'gamma <V/m> kappa <->' or 'none', found '" + what + "'");
+                throw std::invalid_argument("after 'pair I J' comes 'gamma <V/m> kappa <->' or 'none', found '" + what
+                                            + "'");
             }
         } else if (keyword == "area") {
             options.area = areaLawByName(word("area"));
@@ -103,7 +109,7 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
     }
     nevery = 1;
     create_attribute = 1;
-    just_created = 0;   // otherwise the first set-up would call set_arrays for particles that are already there
+    just_created = 0;  // otherwise the first set-up would call set_arrays for particles that are already there
     comm_forward = 2;
     restart_peratom = 1;
     restart_global = 1;
@@ -134,9 +140,13 @@ void FixChargeGranContact::init()
     field_ = static_cast<FixCoupleCfdEfield*>(modify->find_fix_style("couple/cfd/efield", 0));
     refreshWalls();
     const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
-    transfer_.setMinimumImage(periodic ? [](void* box, double* vector) {
-        static_cast<LAMMPS_NS::Domain*>(box)->minimum_image(vector[0], vector[1], vector[2]);
-    } : static_cast<void (*)(void*, double*)>(nullptr), domain);
+    transfer_.setMinimumImage(
+        periodic
+            ? [](void* box,
+                 double*
+                     vector) { static_cast<LAMMPS_NS::Domain*>(box)->minimum_image(vector[0], vector[1], vector[2]); }
+            : static_cast<void (*)(void*, double*)>(nullptr),
+        domain);
 }
 
 // ---------------------------------------------------------------------- walls
@@ -166,7 +176,8 @@ void FixChargeGranContact::refreshWalls()
     for (std::size_t row = 0; row < now.size(); ++row) {
         const DemWall& wall = now[row].wall;
         types.push_back(wall.type);
-        const auto role = std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == wall.name; });
+        const auto role =
+            std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == wall.name; });
         transfers.push_back(role == roles_.end() || role->transfersCharge);
         for (std::size_t old = 0; old < walls_.size(); ++old) {
             if (walls_[old].wall.name == wall.name) {

@@ -53,7 +53,7 @@ public:
     int setmask() override;
     void init() override;
     void end_of_step() override;
-    double compute_vector(int n) override;   ///< [0] inserted, [1 + w] given to wall w [C]
+    double compute_vector(int n) override;  ///< [0] inserted, [1 + w] given to wall w [C]
     void grow_arrays(int rows) override;
     void copy_arrays(int from, int to, int deleting) override;
     void set_arrays(int row) override;
@@ -85,12 +85,12 @@ private:
     std::vector<GrowingWallContact> growingWallContacts_;
     std::vector<ListedWall> walls_;
     std::vector<WallRole> roles_;
-    std::vector<char> booked_;        ///< per row: the particle's charge stands in the books
-    bool arrivals_ = false;           ///< some row is not booked yet
+    std::vector<char> booked_;  ///< per row: the particle's charge stands in the books
+    bool arrivals_ = false;     ///< some row is not booked yet
     bool enabled_;
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;
-    std::vector<double> restartedToWall_;   ///< from a restart file, until all of its walls are defined
+    std::vector<double> restartedToWall_;  ///< from a restart file, until all of its walls are defined
     double pairsBegun_ = 0;
     double wallContactsBegun_ = 0;
     double curvature_ = 0;

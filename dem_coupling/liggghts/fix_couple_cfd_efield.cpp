@@ -26,7 +26,7 @@ FixCoupleCfdEfield::FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* liggghts, int narg, ch
         error->fix_error(FLERR, this, "needs charged particles: write 'atom_style hybrid granular charge'");
     }
     create_attribute = 1;
-    just_created = 0;   // otherwise the first set-up would call set_arrays for particles that are already there
+    just_created = 0;  // otherwise the first set-up would call set_arrays for particles that are already there
     comm_forward = width;
     comm_border = width;
     peratom_flag = 1;

@@ -24,8 +24,7 @@ template struct PrivateMember<FixMap, &LAMMPS_NS::Modify::fix_map>;
 
 namespace {
 
-template <typename FixStyle>
-LAMMPS_NS::Fix* create(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
+template <typename FixStyle> LAMMPS_NS::Fix* create(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg)
 {
     return new FixStyle(lmp, narg, arg);
 }

@@ -35,7 +35,8 @@ constexpr const char* fieldFixId = "himFoamElectricField";
 
 std::unique_ptr<LAMMPS_NS::LAMMPS> start(const DemOptions& options, MPI_Comm communicator)
 {
-    std::vector<std::string> words{"himFoam", "-log", options.logFile.empty() ? "none" : options.logFile, "-screen", "/dev/null"};
+    std::vector<std::string> words{"himFoam", "-log", options.logFile.empty() ? "none" : options.logFile, "-screen",
+                                   "/dev/null"};
     for (const auto& [name, value] : options.variables) {
         words.insert(words.end(), {"-var", name, value});
     }
@@ -129,7 +130,8 @@ Complaints LiggghtsDem::check() const
 {
     Complaints complaints;
     if (!lmp_->domain->box_exist) {
-        complaints.add(script_, "the script creates no simulation box. Use 'create_box', 'read_data' or 'read_restart'.");
+        complaints.add(script_,
+                       "the script creates no simulation box. Use 'create_box', 'read_data' or 'read_restart'.");
         return complaints;
     }
     if (std::strcmp(lmp_->update->unit_style, "si") != 0) {
@@ -137,17 +139,22 @@ Complaints LiggghtsDem::check() const
                                     + "' found; himFoam works in SI only. Write 'units si'.");
     }
     if (!lmp_->atom->q_flag || !lmp_->atom->radius_flag) {
-        complaints.add(script_, "atom_style '" + std::string(lmp_->atom->atom_style)
-                                    + "' found; charged spheres are needed. Write 'atom_style hybrid granular charge'.");
+        complaints.add(script_,
+                       "atom_style '" + std::string(lmp_->atom->atom_style)
+                           + "' found; charged spheres are needed. Write 'atom_style hybrid granular charge'.");
     }
     if (lmp_->force->cg_active()) {
-        complaints.add(script_, "coarse graining is on; the charging law is for real particles only. Remove 'coarsegraining'.");
+        complaints.add(script_,
+                       "coarse graining is on; the charging law is for real particles only. Remove 'coarsegraining'.");
     }
     if (lmp_->modify->n_fixes_style("multisphere") > 0) {
-        complaints.add(script_, "multisphere particles found; only single spheres carry charge here. Remove 'fix multisphere'.");
+        complaints.add(script_,
+                       "multisphere particles found; only single spheres carry charge here. Remove 'fix multisphere'.");
     }
     if (lmp_->atom->superquadric_flag) {
-        complaints.add(script_, "superquadric particles found; only spheres carry charge here. Use 'atom_style hybrid granular charge'.");
+        complaints.add(
+            script_,
+            "superquadric particles found; only spheres carry charge here. Use 'atom_style hybrid granular charge'.");
     }
     if (charging_) {
         checkContactModels(complaints);
@@ -160,9 +167,11 @@ void LiggghtsDem::checkContactModels(Complaints& complaints) const
 {
     auto* pair = dynamic_cast<LAMMPS_NS::PairGran*>(lmp_->force->pair);
     if (!pair || !(pair->contact_match("cohesion", "charge") || pair->contact_match("cohesion", "charge/sjkr"))) {
-        complaints.add(script_, "fix charge/gran/contact is there, but pair_style does not record contacts. Add 'cohesion charge' (or "
-                                "'cohesion charge/sjkr') to pair_style gran. Known: "
-                                    + knownContactModels() + ".");
+        complaints.add(
+            script_,
+            "fix charge/gran/contact is there, but pair_style does not record contacts. Add 'cohesion charge' (or "
+            "'cohesion charge/sjkr') to pair_style gran. Known: "
+                + knownContactModels() + ".");
     }
 }
 
@@ -230,7 +239,8 @@ void LiggghtsDem::handOver()
         screen_->quiet();
     }
     if (lmp_->logfile) {
-        std::fprintf(lmp_->logfile, "\n# Step " BIGINT_FORMAT ": handed over to himFoam, which reports in its own log.\n",
+        std::fprintf(lmp_->logfile,
+                     "\n# Step " BIGINT_FORMAT ": handed over to himFoam, which reports in its own log.\n",
                      lmp_->update->ntimestep);
         std::fclose(lmp_->logfile);
         lmp_->logfile = nullptr;

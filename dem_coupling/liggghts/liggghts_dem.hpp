@@ -45,9 +45,9 @@ public:
 private:
     /// What the books need to tell how much charge left with particles that the script took out.
     struct Account {
-        std::int64_t arrivals = 0;    ///< particles that appeared since the hand-over, this rank
-        double charge = 0;            ///< this rank [C]
-        double moved = 0;             ///< inserted less given to walls, all ranks [C]
+        std::int64_t arrivals = 0;  ///< particles that appeared since the hand-over, this rank
+        double charge = 0;          ///< this rank [C]
+        double moved = 0;           ///< inserted less given to walls, all ranks [C]
     };
     Account account() const;
     void countParticles(const Account& before);
@@ -58,15 +58,15 @@ private:
 
     std::string script_;
     MPI_Comm communicator_;
-    std::unique_ptr<LiggghtsScreen> screen_;   ///< outlives lmp_, which writes to it
+    std::unique_ptr<LiggghtsScreen> screen_;  ///< outlives lmp_, which writes to it
     std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
     FixCoupleCfdEfield* field_ = nullptr;
-    bool setUpNext_ = false;   ///< the next run() computes the forces of its first step anew
+    bool setUpNext_ = false;  ///< the next run() computes the forces of its first step anew
     bool removalsAllowed_ = false;
     std::int64_t expected_ = 0;
-    double removed_ = 0;   ///< charge of particles taken out since the hand-over, all ranks [C]
+    double removed_ = 0;  ///< charge of particles taken out since the hand-over, all ranks [C]
 };
 
 }  // namespace him

@@ -11,8 +11,7 @@ namespace him {
 ///     (*object).*memberOf(FixMap{})
 ///
 /// The tag stands in namespace him itself, like memberOf.
-template <typename Tag, typename Tag::Member pointer>
-struct PrivateMember {
+template <typename Tag, typename Tag::Member pointer> struct PrivateMember {
     friend typename Tag::Member memberOf(Tag) { return pointer; }
 };
 

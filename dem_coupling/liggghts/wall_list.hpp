@@ -8,7 +8,7 @@
 namespace LAMMPS_NS {
 class Fix;
 class LAMMPS;
-}
+}  // namespace LAMMPS_NS
 
 namespace him {
 

@@ -223,7 +223,8 @@ struct TouchingPair {
             contact[d] = place[0][d] + (place[1][d] - place[0][d]) * a / (a + b);
         }
     }
-    static std::array<double, 3> coulomb(const std::array<double, 3>& at, const std::array<double, 3>& from, double charge)
+    static std::array<double, 3> coulomb(const std::array<double, 3>& at, const std::array<double, 3>& from,
+                                         double charge)
     {
         std::array<double, 3> apart{};
         double square = 0;
@@ -241,10 +242,11 @@ struct TouchingPair {
     {
         ChargeTransfer transfer = law(1);
         transfer.setPartnerCutoff(partnerCutoff);
-        const double growth = 1e-11;   // x below 1e-6: no relaxation to speak of
+        const double growth = 1e-11;  // x below 1e-6: no relaxation to speak of
         const std::vector<double> before = scene.charge;
         step(transfer, scene, {{0, 1, growth, {0.6, 0.8, 0}}}, {}, true);
-        const double own = -surfaceField(before[0], scene.size[0], epsilon0) + surfaceField(before[1], scene.size[1], epsilon0);
+        const double own =
+            -surfaceField(before[0], scene.size[0], epsilon0) + surfaceField(before[1], scene.size[1], epsilon0);
         const double gained = scene.charge[0] - before[0];
         scene.charge = before;
         return gained / (epsilon0 * growth) - own;

@@ -36,7 +36,8 @@ TEST(ChargingPairs, refusesWhatCanNotBeMeant)
 {
     using Pairs = ChargingPairs&;
     EXPECT_EQ(refusal([](Pairs p) { p.set(1, 4, 0, 1); }), "pair 1 4: there is no type 4; the box has types 1 to 3");
-    EXPECT_EQ(refusal([](Pairs p) { p.set(1, 2, 0, -1); }), "pair 1 2: kappa must be a finite number >= 0, found -1.000000");
+    EXPECT_EQ(refusal([](Pairs p) { p.set(1, 2, 0, -1); }),
+              "pair 1 2: kappa must be a finite number >= 0, found -1.000000");
     EXPECT_EQ(refusal([](Pairs p) { p.set(1, 1, 5, 1); }),
               "pair 1 1: gamma must be 0 between equal types, because Gamma_ij = -Gamma_ji");
     EXPECT_EQ(refusal([](Pairs p) { p.set(3, 1, 0, 1); }),
@@ -55,10 +56,11 @@ TEST(ChargingPairs, everyPairThatCanTouchAndWasNotGivenIsNamedOnce)
     pairs.setNone(2, 3);
     him::Complaints complaints;
     pairs.complainAboutMissing({1, 2}, {3, 4}, "in.bed: fix tribo", complaints);
-    ASSERT_EQ(complaints.lines().size(), 4u);   // 1-2, 2-2, 1-4, 2-4; walls never touch walls
-    EXPECT_EQ(complaints.lines()[0],
-              "in.bed: fix tribo: Gamma and kappa are missing for types 1 and 2, which can touch. Add 'pair 1 2 gamma <V/m> "
-              "kappa <->', or 'pair 1 2 none' for no charge transfer.");
+    ASSERT_EQ(complaints.lines().size(), 4u);  // 1-2, 2-2, 1-4, 2-4; walls never touch walls
+    EXPECT_EQ(
+        complaints.lines()[0],
+        "in.bed: fix tribo: Gamma and kappa are missing for types 1 and 2, which can touch. Add 'pair 1 2 gamma <V/m> "
+        "kappa <->', or 'pair 1 2 none' for no charge transfer.");
 }
 
 }  // namespace
