@@ -56,7 +56,7 @@ struct ChargeMovements {
 struct ContactCounts {
     double particleParticle = 0;  ///< contacts that began
     double particleWall = 0;
-    double largestRelaxation = 0;  ///< largest x of one step; above 0.5 the frozen law may overshoot
+    double largestRelaxation = 0;  ///< largest M of one contact in one step [-], see chargeGained
 };
 
 /// What the coupling needs of a DEM program. SI units. Collective over the communicator unless said otherwise.

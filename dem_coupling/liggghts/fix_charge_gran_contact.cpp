@@ -19,6 +19,16 @@
 
 namespace him {
 
+namespace {
+
+/// LIGGGHTS' minimum image of a vector [m] between two positions, in place.
+void shortenInBox(void* box, double* vector)
+{
+    static_cast<LAMMPS_NS::Domain*>(box)->minimum_image(vector[0], vector[1], vector[2]);
+}
+
+}  // namespace
+
 bool FixChargeGranContact::hosted = false;
 
 FixChargeGranContact* FixChargeGranContact::find(LAMMPS_NS::LAMMPS* lmp)
@@ -140,13 +150,7 @@ void FixChargeGranContact::init()
     field_ = static_cast<FixCoupleCfdEfield*>(modify->find_fix_style("couple/cfd/efield", 0));
     refreshWalls();
     const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
-    transfer_.setMinimumImage(
-        periodic
-            ? [](void* box,
-                 double*
-                     vector) { static_cast<LAMMPS_NS::Domain*>(box)->minimum_image(vector[0], vector[1], vector[2]); }
-            : static_cast<void (*)(void*, double*)>(nullptr),
-        domain);
+    transfer_.setMinimumImage(periodic ? shortenInBox : nullptr, domain);
 }
 
 // ---------------------------------------------------------------------- walls

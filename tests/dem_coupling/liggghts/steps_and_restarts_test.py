@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
-from scene import PROGRAM, PTFE, RIGID, Run, plate, rayleigh_step, script, trough
+from scene import PROGRAM, PTFE, Run, plate, rayleigh_step, script, trough
 
 STEP = 0.2 * rayleigh_step(PTFE)
 RADIUS = PTFE["radius"]
