@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/field_settings.hpp"
 #include "dem_coupling/phase_times.hpp"
 #include "dem_coupling/poisson_mesh.hpp"
 
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace him {
-
-/// What to do with a particle that the DEM still has but that no mesh cell holds.
-enum class OutsideMesh {
-    error,    ///< stop and name the particle
-    excluded  ///< it neither gives charge to the mesh nor sees the mesh field; counted and reported
-};
 
 /// Field at this rank's particles, in the order of DemParticles.
 struct ParticleField {
@@ -28,15 +23,9 @@ struct ParticleField {
     /// Electrostatic energy [J] of this rank's particles: 1/2 sum q V of the charges' own potential plus sum q V of the
     /// external field; NaN when the method has no potential.
     double energy = 0;
-};
-
-/// Settings of every method; a method reads only what it knows.
-struct FieldSettings {
-    std::string method;                       ///< run-time selected name
-    double nearCutoff = 0;                    ///< r_c [m]
-    double permittivity = 0;                  ///< eps [F/m]
-    Vector3 externalField = Vector3::Zero();  ///< [V/m], added to every method's field
-    OutsideMesh outsideMesh = OutsideMesh::error;
+    /// Share of `field` that the particle's own images and induced charges make [V/m], so that field - ownResponse is the
+    /// field of the others; empty when the method does not know it.
+    Points ownResponse;
 };
 
 /// A way to get the field at every particle from all charges. compute() is collective.

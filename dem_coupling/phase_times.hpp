@@ -7,7 +7,7 @@
 namespace him {
 
 /// Where the wall-clock time of a run goes.
-enum class Phase { dem, near, poisson, exchange, output, count };
+enum class Phase { dem, near, deposit, poisson, gather, exchange, output, count };
 
 /// Seconds spent in each phase on this rank.
 class PhaseTimes {
@@ -16,7 +16,8 @@ public:
     void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
     static const char* name(Phase phase)
     {
-        static constexpr std::array<const char*, 5> names{"DEM", "near sum", "Poisson", "exchange", "output"};
+        static constexpr std::array<const char*, static_cast<std::size_t>(Phase::count)> names{
+            "DEM", "near sum", "deposit", "Poisson", "gather", "exchange", "output"};
         return names[static_cast<std::size_t>(phase)];
     }
 

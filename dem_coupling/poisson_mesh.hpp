@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/mesh_arrays.hpp"
 #include "electrostatics/types.hpp"
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,7 +28,37 @@ public:
     virtual void solve(const Scalars& cellCharge) = 0;
 
     virtual Vector3 electricField(Index cell) const = 0;  ///< -grad V of the cell [V/m] (R30), after solve()
-    virtual double potential(Index cell) const = 0;       ///< [V], after solve()
+    virtual double potential(Index cell) const = 0;       ///< [V], after any solve
+
+    // --- What p3m needs besides. The mesh part of the potential lives under boundary values of its own.
+
+    /// This rank's cells and faces; valid while the mesh lives and does not move.
+    virtual const MeshArrays& arrays() const { throw std::logic_error("this mesh has no arrays"); }
+
+    /// Solves laplacian(V) = -rho/eps with these boundary values, one per face of arrays().boundary: the potential [V] on
+    /// conductors, the outward normal gradient [V/m] on insulated faces. Collective; does not update electricField().
+    virtual void solve(const Scalars& cellCharge, const Scalars& boundaryValue)
+    {
+        static_cast<void>(cellCharge);
+        static_cast<void>(boundaryValue);
+        throw std::logic_error("this mesh solves with the case's boundary conditions only");
+    }
+
+    /// Adds to the potential the solution of laplacian(dV) = -residual/(eps volume) with zero boundary values: one deferred
+    /// correction. Collective.
+    /// @param residual  charge of each local cell [C] that the potential does not account for yet
+    virtual void correct(const Scalars& residual)
+    {
+        static_cast<void>(residual);
+        throw std::logic_error("this mesh has no correction");
+    }
+
+    /// Asks for a fourth-order operator in solve(cellCharge, boundaryValue) where boundary values are all zero. True when
+    /// the mesh has one (the direct solve of a uniform grounded box); no deferred correction is needed then. Collective.
+    virtual bool useFourthOrderOperator() { return false; }
+
+    /// One line for logs and tables: cells, solver, tolerance.
+    virtual std::string description() const { return {}; }
 };
 
 }  // namespace him
