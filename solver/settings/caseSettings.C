@@ -2,13 +2,10 @@
 #include "settings/caseSettings.H"
 
 #include "settings/checkedDictionary.H"
-
-#include "electrostatics/constants.hpp"
+#include "settings/fieldChoices.H"
 
 #include "OSspecific.H"
 #include "Pstream.H"
-
-#include <algorithm>
 
 namespace him {
 
@@ -22,32 +19,12 @@ bool existsInCase(const Foam::fileName& path)
     return found;
 }
 
-FieldSettings readFieldSettings(const Foam::fileName& casePath, Complaints& complaints)
-{
-    checkedDictionary properties(casePath, "constant/electrostaticProperties", complaints);
-    FieldSettings settings;
-    settings.method = properties.oneOf("fieldMethod", FieldMethod::names());
-    settings.externalField = properties.vector("externalField", Vector3::Zero());
-    settings.permittivity = epsilon0 * properties.positive("relativePermittivity", 1);
-    for (const std::string& method : FieldMethod::names()) {
-        if (FieldMethod::needsCutoff(method)) {
-            const bool selected = method == settings.method;
-            checkedDictionary coeffs = properties.section(method + "Coeffs", !selected);
-            const double cutoff = coeffs.positive("nearCutoff");
-            settings.nearCutoff = selected && coeffs.readable() ? cutoff : settings.nearCutoff;
-            coeffs.refuseUnknownEntries();
-        }
-    }
-    properties.refuseUnknownEntries();
-    return settings;
-}
-
 }  // namespace
 
 caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& complaints)
 {
     caseSettings settings;
-    settings.field = readFieldSettings(casePath, complaints);
+    settings.field = readFieldChoices(casePath, complaints).selected;
     settings.needsMesh = settings.field.method.empty() ? existsInCase(casePath / "constant" / "polyMesh")
                                                        : FieldMethod::needsMesh(settings.field.method);
 

@@ -135,6 +135,11 @@ bool checkedDictionary::read(const std::string& entry, const std::string& expect
     return false;
 }
 
+bool checkedDictionary::has(const std::string& entry)
+{
+    return !absent(entry, false);
+}
+
 double checkedDictionary::number(const std::string& entry, std::optional<double> defaultValue)
 {
     double value = defaultValue.value_or(0);
@@ -235,6 +240,17 @@ checkedDictionary checkedDictionary::section(const std::string& entry, bool opti
         return {Foam::dictionary(), where, false, complaints_};
     }
     return {*contents, where, true, complaints_};
+}
+
+std::vector<std::string> checkedDictionary::sectionsWith(const std::string& entry) const
+{
+    std::vector<std::string> names;
+    for (const Foam::entry& candidate : contents_) {
+        if (candidate.isDict() && candidate.dict().found(entry)) {
+            names.push_back(candidate.keyword());
+        }
+    }
+    return names;
 }
 
 std::vector<std::pair<std::string, std::string>> checkedDictionary::words()

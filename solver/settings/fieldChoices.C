@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "settings/fieldChoices.H"
+
+#include "settings/checkedDictionary.H"
+
+#include "electrostatics/constants.hpp"
+
+#include <algorithm>
+
+namespace him {
+
+namespace {
+
+void readPairwiseSum(checkedDictionary& coeffs, PairwiseSumSettings& settings)
+{
+    settings.images = coeffs.yesNo("images", settings.images);
+    settings.truncation = coeffs.positive("truncation", settings.truncation);
+}
+
+void readP3m(checkedDictionary& coeffs, P3mSettings& settings)
+{
+    const bool inMetres = coeffs.has("cloudRadius");
+    settings.cloudRadius = inMetres ? coeffs.positive("cloudRadius", 1) : 0;
+    settings.cloudCells = coeffs.positive("cloudCells", settings.cloudCells);
+    settings.cloudExponent = static_cast<int>(coeffs.nonNegativeInteger("cloudExponent", settings.cloudExponent));
+    settings.gather = coeffs.oneOf("gather", {"cubic", "quartic"}, "cubic") == "quartic" ? PolynomialOrder::quartic
+                                                                                         : PolynomialOrder::cubic;
+    settings.deferredCorrection = coeffs.yesNo("deferredCorrection", settings.deferredCorrection);
+    settings.selfTerm = coeffs.yesNo("selfTerm", settings.selfTerm);
+}
+
+/// Entries of settings.method in its sub-dictionary, which may be absent.
+void readCoeffs(checkedDictionary& coeffs, FieldSettings& settings)
+{
+    const std::string& method = settings.method;
+    if (FieldMethod::needsCutoff(method)) {
+        const double cutoff = coeffs.positive("nearCutoff");
+        settings.nearCutoff = coeffs.readable() ? cutoff : 0;
+    }
+    if (method == "pairwiseSum") {
+        readPairwiseSum(coeffs, settings.pairwiseSum);
+    } else if (method == "him") {
+        settings.him.removeOwnCellResponse = coeffs.oneOf("ownCellResponse", {"keep", "remove"}, "keep") == "remove";
+    } else if (method == "himCell") {
+        settings.himCell.deltaMin = coeffs.has("deltaMin") ? coeffs.positive("deltaMin", 1) : 0;
+    } else if (method == "p3m") {
+        readP3m(coeffs, settings.p3m);
+    }
+}
+
+}  // namespace
+
+const fieldChoice* fieldChoices::find(const std::string& name) const
+{
+    const auto found = std::find_if(all.begin(), all.end(), [&](const fieldChoice& c) { return c.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> fieldChoices::names() const
+{
+    std::vector<std::string> list;
+    std::transform(all.begin(), all.end(), std::back_inserter(list), [](const fieldChoice& c) { return c.name; });
+    return list;
+}
+
+fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& complaints)
+{
+    checkedDictionary properties(casePath, "constant/electrostaticProperties", complaints);
+    const std::string selected = properties.oneOf("fieldMethod", FieldMethod::names());
+    FieldSettings common;
+    common.externalField = properties.vector("externalField", Vector3::Zero());
+    common.permittivity = epsilon0 * properties.positive("relativePermittivity", 1);
+
+    fieldChoices choices;
+    choices.selected = common;
+    for (const std::string& method : FieldMethod::names()) {
+        fieldChoice choice{method, common};
+        choice.settings.method = method;
+        const bool required = method == selected && FieldMethod::needsCutoff(method);
+        checkedDictionary coeffs = properties.section(method + "Coeffs", !required);
+        readCoeffs(coeffs, choice.settings);
+        coeffs.refuseUnknownEntries();
+        if (method == selected) {
+            choices.selected = choice.settings;
+        }
+        choices.all.push_back(choice);
+    }
+    for (const std::string& name : properties.sectionsWith("fieldMethod")) {
+        fieldChoice choice{name, common};
+        checkedDictionary coeffs = properties.section(name);
+        choice.settings.method = coeffs.oneOf("fieldMethod", FieldMethod::names());
+        if (choice.settings.method.empty()) {
+            continue;
+        }
+        readCoeffs(coeffs, choice.settings);
+        coeffs.refuseUnknownEntries();
+        if (choices.find(name)) {
+            coeffs.complain("fieldMethod", "`" + name + "` is the name of a method. Give the variant another name.");
+            continue;
+        }
+        choices.all.push_back(choice);
+    }
+    properties.refuseUnknownEntries();
+    return choices;
+}
+
+}  // namespace him
