@@ -6,6 +6,7 @@
 #include "electrostatics/require.hpp"
 
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -45,6 +46,51 @@ void requireMatching(const ChargedPoints& points, bool withCellCentres)
                                     + " positions, found " + std::to_string(points.targets));
     }
 }
+
+// What acts between two points: the kernel for one-sided pairs and the one for pairs of targets.
+
+struct CoulombLaw {
+    static constexpr bool cellCentres = false;
+    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
+                       const PairLimits& limits) const
+    {
+        return sumCoulomb(sources, ranges.range.data(), ranges.count, target, limits);
+    }
+    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
+                       const PairLimits& limits, const ReactionArrays& reaction) const
+    {
+        return sumMutualCoulomb(sources, ranges.range.data(), ranges.count, target, limits, reaction);
+    }
+};
+
+struct WithoutDoubleCount {
+    static constexpr bool cellCentres = true;
+    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
+                       const PairLimits& limits) const
+    {
+        return sumWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits);
+    }
+    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
+                       const PairLimits& limits, const ReactionArrays& reaction) const
+    {
+        return sumMutualWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits, reaction);
+    }
+};
+
+struct ScreenedLaw {
+    static constexpr bool cellCentres = false;
+    const ChargeCloud::Coefficients& cloud;
+    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
+                       const PairLimits& limits) const
+    {
+        return sumScreened(sources, ranges.range.data(), ranges.count, target, limits, cloud);
+    }
+    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
+                       const PairLimits& limits, const ReactionArrays& reaction) const
+    {
+        return sumMutualScreened(sources, ranges.range.data(), ranges.count, target, limits, cloud, reaction);
+    }
+};
 
 }  // namespace
 
@@ -92,7 +138,7 @@ void NearField::sort(const ChargedPoints& points, bool withCellCentres)
     }
 }
 
-template <bool withoutDoubleCount> void NearField::sumAtTargets(const ChargedPoints& points, PairSumResult& result)
+template <class Law> void NearField::sumAtTargets(const ChargedPoints& points, const Law& law, PairSumResult& result)
 {
     const Index targets = points.targets;
     const PairLimits limits{cutoff_ * cutoff_, sameCellShare * sameCellShare * cutoff_ * cutoff_};
@@ -107,19 +153,14 @@ template <bool withoutDoubleCount> void NearField::sumAtTargets(const ChargedPoi
     LinkedCells::Ranges ranges;
     for (Index place = 0; place < targets; ++place) {
         PairTarget target{{x_[place], y_[place], z_[place]}, Vector3::Zero(), q_[place]};
-        if constexpr (withoutDoubleCount) {
+        if (Law::cellCentres) {
             target.cellCentre = {cellX_[place], cellY_[place], cellZ_[place]};
         }
         // Every pair of targets once, for both; the other sources act on the target only.
         targets_.rangesAfter(place, target.position, ranges);
-        const PairSum mutual =
-            withoutDoubleCount
-                ? sumMutualWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits, sums)
-                : sumMutualCoulomb(sources, ranges.range.data(), ranges.count, target, limits, sums);
+        const PairSum mutual = law(sources, ranges, target, limits, sums);
         others_.rangesAround(target.position, ranges);
-        const PairSum single = withoutDoubleCount
-                                   ? sumWithoutDoubleCount(others, ranges.range.data(), ranges.count, target, limits)
-                                   : sumCoulomb(others, ranges.range.data(), ranges.count, target, limits);
+        const PairSum single = law(others, ranges, target, limits);
         if (mutual.coincident || single.coincident) {
             const Index row = targets_.order()[place];
             throwSharedPosition(points.position, row, points.position, row);
@@ -146,13 +187,24 @@ template <bool withoutDoubleCount> void NearField::sumAtTargets(const ChargedPoi
 void NearField::coulomb(const ChargedPoints& points, PairSumResult& result)
 {
     sort(points, false);
-    sumAtTargets<false>(points, result);
+    sumAtTargets(points, CoulombLaw(), result);
 }
 
 void NearField::coulombWithoutDoubleCount(const ChargedPoints& points, PairSumResult& result)
 {
     sort(points, true);
-    sumAtTargets<true>(points, result);
+    sumAtTargets(points, WithoutDoubleCount(), result);
+}
+
+void NearField::screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result)
+{
+    if (cloud.radius() != cutoff_) {
+        std::ostringstream message;
+        message << "the cloud radius must be the near cutoff, " << cutoff_ << " m, found " << cloud.radius() << " m";
+        throw std::invalid_argument(message.str());
+    }
+    sort(points, false);
+    sumAtTargets(points, ScreenedLaw{cloud.coefficients()}, result);
 }
 
 }  // namespace him

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "electrostatics/linked_cells.hpp"
+#include "electrostatics/p3m/cloud.hpp"
 #include "electrostatics/types.hpp"
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 namespace him {
 
 /// The sources of a pair sum. The first `targets` rows are the particles whose field is wanted; the rest are halo
-/// copies of other ranks or periodic copies. A particle never acts on itself (same row).
+/// copies of other ranks, periodic copies or image charges, which only act. A particle never acts on itself (same row).
 struct ChargedPoints {
     Points position;    ///< [m]
     Scalars charge;     ///< [C]
@@ -48,11 +49,19 @@ public:
     /// Centres closer than 1e-9 r_c are the same cell. The potential is left at zero: HIM has none.
     void coulombWithoutDoubleCount(const ChargedPoints& points, PairSumResult& result);
 
+    /// The short-range part of charges whose cloud the mesh carries (p3m): E_i = sum q_k (x_i - x_k) (1/r^3 - F(r)) and
+    /// V_i = sum q_k (1/r - psi(r)) over r <= R, each times 1/(4 pi eps). Nothing is left of a pair at R, so the sum is
+    /// exact, not truncated. Throws std::domain_error naming two rows that share a position.
+    /// @param cloud  its radius R must be the cutoff; std::invalid_argument otherwise
+    void screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result);
+
     double cutoff() const { return cutoff_; }
 
 private:
     void sort(const ChargedPoints& points, bool withCellCentres);
-    template <bool withoutDoubleCount> void sumAtTargets(const ChargedPoints& points, PairSumResult& result);
+    /// @param law  calls one of the kernels: law(sources, ranges, target, limits) or, for pairs of targets,
+    ///             law(sources, ranges, target, limits, reaction)
+    template <class Law> void sumAtTargets(const ChargedPoints& points, const Law& law, PairSumResult& result);
 
     double cutoff_;
     double permittivity_;

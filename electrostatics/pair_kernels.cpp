@@ -47,10 +47,15 @@ HIM_INLINE void subtractAt(double* values, Lanes change)
     storeLanes(values, loadLanes(values) - change);
 }
 
-template <bool withoutDoubleCount, bool mutual>
+enum class PairLaw { coulomb, withoutDoubleCount, screened };
+
+template <PairLaw law, bool mutual>
 HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, int rangeCount,
-                                 const PairTarget& target, const PairLimits& limits, const ReactionArrays& reaction)
+                                 const PairTarget& target, const PairLimits& limits,
+                                 const ChargeCloud::Coefficients& cloud, const ReactionArrays& reaction)
 {
+    constexpr bool withoutDoubleCount = law == PairLaw::withoutDoubleCount;
+    constexpr bool screened = law == PairLaw::screened;
     const LaneVector position = spread(target.position);
     const LaneVector cell = spread(target.cellCentre);
     const Lanes ownCharge = allLanes(target.charge);
@@ -72,7 +77,17 @@ HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, 
             coincident |= same;
 
             // Field of a unit charge at the source, at the target.
-            const Lanes weight = inverseCube(counts, r2);
+            Lanes weight = inverseCube(counts, r2);
+            Lanes unitPotential = weight * r2;
+            if constexpr (screened) {
+                const Lanes u2 = (counts ? r2 : allLanes(limits.cutoffSquared)) * cloud.inverseSquaredRadius;
+                const auto& f = cloud.field;
+                const auto& p = cloud.potential;
+                const Lanes cloudField = f[0] + u2 * (f[1] + u2 * f[2]);
+                const Lanes cloudPotential = p[0] + u2 * (p[1] + u2 * (p[2] + u2 * p[3]));
+                weight -= counts ? cloudField : allLanes(0.0);
+                unitPotential -= counts ? cloudPotential : allLanes(0.0);
+            }
             LaneVector unit{weight * d.x, weight * d.y, weight * d.z};
             if constexpr (withoutDoubleCount) {
                 const LaneVector cellD = separation(cell, s.cellX + k, s.cellY + k, s.cellZ + k);
@@ -92,7 +107,6 @@ HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, 
                 subtractAt(reaction.z + k, ownCharge * unit.z);
             }
             if constexpr (!withoutDoubleCount) {
-                const Lanes unitPotential = weight * r2;
                 potential += charge * unitPotential;
                 if constexpr (mutual) {
                     subtractAt(reaction.potential + k, -ownCharge * unitPotential);
@@ -109,26 +123,40 @@ HIM_INLINE PairSum sumOverRanges(const SourceArrays& s, const RowRange* ranges, 
 HIM_CLONES PairSum sumCoulomb(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
                               const PairTarget& target, const PairLimits& limits)
 {
-    return sumOverRanges<false, false>(sources, ranges, rangeCount, target, limits, {});
+    return sumOverRanges<PairLaw::coulomb, false>(sources, ranges, rangeCount, target, limits, {}, {});
 }
 
 HIM_CLONES PairSum sumMutualCoulomb(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
                                     const PairTarget& target, const PairLimits& limits, const ReactionArrays& reaction)
 {
-    return sumOverRanges<false, true>(sources, ranges, rangeCount, target, limits, reaction);
+    return sumOverRanges<PairLaw::coulomb, true>(sources, ranges, rangeCount, target, limits, {}, reaction);
 }
 
 HIM_CLONES PairSum sumWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
                                          const PairTarget& target, const PairLimits& limits)
 {
-    return sumOverRanges<true, false>(sources, ranges, rangeCount, target, limits, {});
+    return sumOverRanges<PairLaw::withoutDoubleCount, false>(sources, ranges, rangeCount, target, limits, {}, {});
 }
 
 HIM_CLONES PairSum sumMutualWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
                                                const PairTarget& target, const PairLimits& limits,
                                                const ReactionArrays& reaction)
 {
-    return sumOverRanges<true, true>(sources, ranges, rangeCount, target, limits, reaction);
+    return sumOverRanges<PairLaw::withoutDoubleCount, true>(sources, ranges, rangeCount, target, limits, {}, reaction);
+}
+
+HIM_CLONES PairSum sumScreened(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
+                               const PairTarget& target, const PairLimits& limits,
+                               const ChargeCloud::Coefficients& cloud)
+{
+    return sumOverRanges<PairLaw::screened, false>(sources, ranges, rangeCount, target, limits, cloud, {});
+}
+
+HIM_CLONES PairSum sumMutualScreened(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
+                                     const PairTarget& target, const PairLimits& limits,
+                                     const ChargeCloud::Coefficients& cloud, const ReactionArrays& reaction)
+{
+    return sumOverRanges<PairLaw::screened, true>(sources, ranges, rangeCount, target, limits, cloud, reaction);
 }
 
 }  // namespace him

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/p3m/cloud.hpp"
 #include "electrostatics/types.hpp"
 
 #include <cstdint>
@@ -92,5 +93,14 @@ PairSum sumWithoutDoubleCount(const SourceArrays& sources, const RowRange* range
 /// The same in both directions.
 PairSum sumMutualWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
                                     const PairTarget& target, const PairLimits& limits, const ReactionArrays& reaction);
+
+/// Sum of the short-range part of charge clouds: q d (1/r^3 - F(r)) and q (1/r - psi(r)). The cutoff is the cloud radius.
+PairSum sumScreened(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
+                    const PairLimits& limits, const ChargeCloud::Coefficients& cloud);
+
+/// The same in both directions.
+PairSum sumMutualScreened(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
+                          const PairLimits& limits, const ChargeCloud::Coefficients& cloud,
+                          const ReactionArrays& reaction);
 
 }  // namespace him

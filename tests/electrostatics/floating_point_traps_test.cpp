@@ -31,6 +31,10 @@ protected:
         PairSumResult result;
         near.coulomb(points, result);
         near.coulombWithoutDoubleCount(points, result);
+        for (const int exponent : {1, 2}) {
+            near.screened(points, ChargeCloud(cutoff, exponent), result);
+            EXPECT_TRUE(result.field.isFinite().all());
+        }
         Points field = Points::Zero(points.targets, 3);
         Scalars potential = Scalars::Zero(points.targets);
         const Points targets = points.position.topRows(points.targets);

@@ -62,6 +62,7 @@ TEST(NearFieldMemory, isAllocatedOnceForTheLargestNumberOfPoints)
     for (const ChargedPoints* points : {&large, &moved, &smaller, &large}) {
         nearField.coulombWithoutDoubleCount(*points, result);
         nearField.coulomb(*points, result);
+        nearField.screened(*points, ChargeCloud(0.2, 2), result);
     }
     EXPECT_EQ(allocations, 0);
 }

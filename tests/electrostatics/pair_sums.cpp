@@ -46,6 +46,33 @@ BruteForce bruteForce(const ChargedPoints& points, double cutoff, double permitt
     return result;
 }
 
+BruteForce bruteForceScreened(const ChargedPoints& points, const ChargeCloud& cloud, double permittivity)
+{
+    const double constant = 1.0 / (4.0 * pi * permittivity);
+    BruteForce result;
+    result.field.setZero(points.targets, 3);
+    result.potential.setZero(points.targets);
+    result.fieldScale.setZero(points.targets);
+    result.potentialScale.setZero(points.targets);
+    for (Index i = 0; i < points.targets; ++i) {
+        for (Index k = 0; k < points.position.rows(); ++k) {
+            const Vector3 d = (points.position.row(i) - points.position.row(k)).matrix();
+            const double r2 = d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
+            if (i == k || r2 > cloud.radius() * cloud.radius()) {
+                continue;
+            }
+            const double q = constant * points.charge[k];
+            const double r = std::sqrt(r2);
+            result.field.row(i) += q * cloud.shortRangeFieldCoefficient(r) * d.transpose().array();
+            result.potential[i] += q * cloud.shortRangePotential(r);
+            result.fieldScale[i] += std::abs(q) / r2;
+            result.potentialScale[i] += std::abs(q) / r;
+            ++result.pairs;
+        }
+    }
+    return result;
+}
+
 void setCells(ChargedPoints& points, double cellEdge)
 {
     points.cellCentre = ((points.position / cellEdge).floor() + 0.5) * cellEdge;

@@ -17,6 +17,9 @@ struct BruteForce {
 
 BruteForce bruteForce(const ChargedPoints& points, double cutoff, double permittivity, bool withoutDoubleCount);
 
+/// The short-range part of charge clouds by the double loop.
+BruteForce bruteForceScreened(const ChargedPoints& points, const ChargeCloud& cloud, double permittivity);
+
 /// Points of unit scale in a box of the given edges, charges of both signs, every point a target, mesh cells of 0.1.
 ChargedPoints randomPoints(Index count, double edgeX, double edgeY, double edgeZ, unsigned seed);
 
