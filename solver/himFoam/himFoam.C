@@ -112,7 +112,7 @@ int main(int argc, char* argv[])
     if (!args.checkRootCase()) {
         Foam::FatalError.exit();
     }
-    const MPI_Comm communicator = him::openSession();
+    const MPI_Comm communicator = him::openSession(args.executable());
     try {
         him::scene scene;
         him::openCase(args, scene, communicator);

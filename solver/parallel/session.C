@@ -14,6 +14,8 @@ namespace him {
 
 namespace {
 
+std::string programName;
+
 /// The complaints of all ranks, without repetitions, in the order of the ranks; complete on rank 0.
 Complaints gathered(const Complaints& own)
 {
@@ -57,8 +59,9 @@ bool allRanksArrive(MPI_Comm communicator)
 
 }  // namespace
 
-MPI_Comm openSession()
+MPI_Comm openSession(const std::string& program)
 {
+    programName = program;
     if (Foam::Pstream::parRun()) {
         return MPI_COMM_WORLD;
     }
@@ -83,7 +86,7 @@ void stopOnComplaints(const Complaints& complaints, const std::string& stage, MP
     }
     const Complaints all = gathered(complaints);
     if (Foam::Pstream::master()) {
-        std::cout << "\nhimFoam cannot run this case. " << stage << ":\n" << all.text() << std::endl;
+        std::cout << "\n" << programName << " cannot run this case. " << stage << ":\n" << all.text() << std::endl;
     }
     leave(1);
 }
@@ -94,7 +97,7 @@ void stopOnFailure(const std::string& message, MPI_Comm communicator)
     MPI_Comm_rank(communicator, &rank);
     const bool together = allRanksArrive(communicator);
     if (rank == 0 || !together) {
-        std::cout << "\nhimFoam stops: " << message << std::endl;
+        std::cout << "\n" << programName << " stops: " << message << std::endl;
     }
     if (!together) {
         MPI_Abort(communicator, 1);

@@ -173,9 +173,9 @@ class TinyCase:
             raise RuntimeError("%s failed:\n%s" % (" ".join(command), result.text))
         return result
 
-    def run(self, *options, ranks=1):
-        """Runs himFoam; with more than one rank in parallel."""
-        program = os.path.join(os.environ["HIMFOAM_BIN"], "himFoam")
+    def run(self, *options, ranks=1, program="himFoam"):
+        """Runs himFoam or another program of ours; with more than one rank in parallel."""
+        program = os.path.join(os.environ["HIMFOAM_BIN"], program)
         if ranks == 1:
             return self._run([program, *options])
         mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-np", str(ranks)]
