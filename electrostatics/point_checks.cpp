@@ -6,6 +6,14 @@
 
 namespace him {
 
+std::string pointText(const Vector3& point)
+{
+    std::ostringstream text;
+    text.precision(10);
+    text << '(' << point.x() << ' ' << point.y() << ' ' << point.z() << ") m";
+    return text.str();
+}
+
 void throwNotFinite(const char* what, Index row, double value)
 {
     std::ostringstream message;
@@ -32,9 +40,7 @@ void throwSharedPosition(const Points& targets, Index target, const Points& sour
     } else {
         message << "target row " << target << " and source row " << nearest;
     }
-    message.precision(10);
-    message << " share the position (" << point.x() << " " << point.y() << " " << point.z()
-            << ") m; their field would be infinite";
+    message << " share the position " << pointText(point) << "; their field would be infinite";
     throw std::domain_error(message.str());
 }
 

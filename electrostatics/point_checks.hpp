@@ -5,11 +5,15 @@
 #include "electrostatics/types.hpp"
 
 #include <cmath>
+#include <string>
 
 namespace him {
 
 /// Throws std::domain_error "the <what> of row <row> must be finite (at most 1e50), found <value>".
 [[noreturn]] void throwNotFinite(const char* what, Index row, double value);
+
+/// "(x y z) m" with up to 10 digits.
+std::string pointText(const Vector3& point);
 
 /// Refuses NaN, infinity and anything whose powers would overflow. The comparison is quiet.
 inline void requireFinite(const char* what, Index row, double value)
