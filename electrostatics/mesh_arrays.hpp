@@ -52,6 +52,7 @@ struct CoupledFaces {
 struct MeshArrays {
     Points centre;   ///< of every cell, centroid [m]
     Scalars volume;  ///< [m3]
+    Scalars radius;  ///< largest distance from a cell's centre to its points [m]
     InternalFaces internal;
     BoundaryFaces boundary;
     CoupledFaces coupled;

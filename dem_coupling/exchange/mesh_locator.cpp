@@ -43,6 +43,7 @@ void MeshLocator::locate(const Points& positions)
     const Index rows = positions.rows();
     owner_.assign(static_cast<std::size_t>(rows), -1);
     cell_.assign(static_cast<std::size_t>(rows), -1);
+    ownersCell_.assign(static_cast<std::size_t>(rows), -1);
     cellCentre_ = positions;
 
     // Own cells first; for the rest, ask every rank whose bounds contain the point.
@@ -58,6 +59,7 @@ void MeshLocator::locate(const Points& positions)
         if (cell >= 0) {
             owner_[static_cast<std::size_t>(row)] = exchange_.rank();
             cell_[static_cast<std::size_t>(row)] = cell;
+            ownersCell_[static_cast<std::size_t>(row)] = cell;
             cellCentre_.row(row) = (mesh_.cellCentre(cell) - shift).transpose().array();
             continue;
         }
@@ -71,7 +73,7 @@ void MeshLocator::locate(const Points& positions)
     }
     exchange_.exchange(outgoing_, incoming_);
 
-    // Answer with "held here" and the cell centre.
+    // Answer with the cell's number, -1 where there is none, and its centre.
     exchange_.clear(outgoing_);
     for (std::size_t rank = 0; rank < incoming_.size(); ++rank) {
         answeredCells_[rank].clear();
@@ -80,7 +82,7 @@ void MeshLocator::locate(const Points& positions)
             const Index cell = mesh_.findCell(point);
             const Vector3 centre = cell >= 0 ? mesh_.cellCentre(cell) : point;
             answeredCells_[rank].push_back(cell);
-            outgoing_[rank].insert(outgoing_[rank].end(), {cell >= 0 ? 1.0 : 0.0, centre[0], centre[1], centre[2]});
+            outgoing_[rank].insert(outgoing_[rank].end(), {static_cast<double>(cell), centre[0], centre[1], centre[2]});
         }
         incoming_[rank].resize(4 * askedRows_[rank].size());
     }
@@ -90,7 +92,8 @@ void MeshLocator::locate(const Points& positions)
         for (std::size_t n = 0; n < askedRows_[rank].size(); ++n) {
             const Index row = askedRows_[rank][n];
             const double* answer = incoming_[rank].data() + 4 * n;
-            if (answer[0] == 1.0 && !inMesh(row)) {
+            if (answer[0] >= 0 && !inMesh(row)) {
+                ownersCell_[static_cast<std::size_t>(row)] = static_cast<Index>(answer[0]);
                 owner_[static_cast<std::size_t>(row)] = static_cast<int>(rank);
                 const Vector3 centre(answer[1], answer[2], answer[3]);
                 const Vector3 shift = shiftIntoBox(positions.row(row).matrix().transpose());

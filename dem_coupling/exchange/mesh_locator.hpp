@@ -28,6 +28,12 @@ public:
     /// Centre [m] of the cell that holds each row, or of its periodic copy that does; the row's own position where no cell
     /// does.
     const Points& cellCentre() const { return cellCentre_; }
+    /// Rank whose cell holds each row, -1 where no cell does.
+    int owner(Index row) const { return owner_[static_cast<std::size_t>(row)]; }
+    /// Number of that cell at its rank.
+    Index cell(Index row) const { return ownersCell_[static_cast<std::size_t>(row)]; }
+    /// From a position to its periodic copy inside the DEM box [m].
+    Vector3 shiftIntoBox(const Vector3& position) const;
 
     /// Charge [C] of this rank's cells: the sum of the charges of all particles in them, of every rank. Rows outside the
     /// mesh give nothing. The sum over all cells equals that over all rows inside to round-off. Only neighbours talk.
@@ -38,9 +44,6 @@ public:
     void gather(const std::function<Vector3(Index)>& valueOfCell, Points& values);
 
 private:
-    /// From a position to its periodic copy inside the DEM box [m].
-    Vector3 shiftIntoBox(const Vector3& position) const;
-
     const PoissonMesh& mesh_;
     Box demBox_;
     std::array<bool, 3> periodic_;
@@ -48,6 +51,7 @@ private:
     std::vector<Box> bounds_;
     std::vector<int> owner_;                          ///< rank of the cell of each row, -1 when there is none
     std::vector<Index> cell_;                         ///< local cell of each row that this rank's mesh holds
+    std::vector<Index> ownersCell_;                   ///< the same for every row, numbered by the rank that holds it
     Points cellCentre_;
     std::vector<std::vector<Index>> askedRows_;       ///< rows that each rank was asked about
     std::vector<std::vector<Index>> answeredCells_;   ///< local cells, or -1, of what each rank asked here

@@ -25,10 +25,10 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     {
         const PhaseTimer timer(times_, Phase::exchange);
         locator_.locate(particles.position);
-        countOutside(particles, result);
+        findOutside(locator_, particles, communicator_, result);
     }
     if (result.excludedCount > 0 && settings_.outsideMesh == OutsideMesh::error) {
-        refuseOutside(particles, result.excludedCount);
+        refuseOutside("him", locator_, particles, result.excludedCount, communicator_);
     }
     addMeshField(particles, result);
     {
@@ -54,39 +54,6 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     result.potential.resize(0);
     result.energy = std::numeric_limits<double>::quiet_NaN();
     addExternalField(settings_.externalField, result);
-}
-
-void Him::countOutside(const DemParticles& particles, ParticleField& result) const
-{
-    double mine[2] = {0, 0};
-    for (Index row = 0; row < particles.size(); ++row) {
-        if (!locator_.inMesh(row)) {
-            mine[0] += 1;
-            mine[1] += particles.charge[row];
-        }
-    }
-    double all[2] = {0, 0};
-    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, communicator_);
-    result.excludedCount = static_cast<std::int64_t>(all[0]);
-    result.excludedCharge = all[1];
-}
-
-void Him::refuseOutside(const DemParticles& particles, std::int64_t count) const
-{
-    int tag = nothingToSay;
-    std::string text;
-    for (Index row = 0; row < particles.size(); ++row) {
-        if (!locator_.inMesh(row) && particles.tag[static_cast<std::size_t>(row)] < tag) {
-            tag = particles.tag[static_cast<std::size_t>(row)];
-            text = "field method him: particle " + std::to_string(tag) + " at "
-                   + describe(particles.position.row(row).matrix().transpose()) + " is in no cell of the mesh"
-                   + (count > 1 ? " (" + std::to_string(count) + " particles are not)" : "")
-                   + ". Make the mesh cover all the space that the DEM walls leave to particles, or set "
-                     "couplingProperties.particlesOutsideMesh to excluded: such particles then neither give charge to the "
-                     "mesh nor see its field";
-        }
-    }
-    throwTogether(communicator_, tag, text);
 }
 
 void Him::addMeshField(const DemParticles& particles, ParticleField& result)

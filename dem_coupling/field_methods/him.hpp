@@ -22,8 +22,6 @@ public:
     bool hasPotential() const override { return false; }
 
 private:
-    void countOutside(const DemParticles& particles, ParticleField& result) const;
-    [[noreturn]] void refuseOutside(const DemParticles& particles, std::int64_t count) const;
     void addMeshField(const DemParticles& particles, ParticleField& result);
     void sumNear(bool someExcluded);
     void sumNearWithExcluded();

@@ -81,6 +81,40 @@ std::int64_t sumPairs(std::int64_t pairs, const std::string& failure, const DemP
                   "created twice, and the DEM time step");
 }
 
+void findOutside(const MeshLocator& locator, const DemParticles& particles, MPI_Comm communicator, ParticleField& result)
+{
+    double mine[2] = {0, 0};
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!locator.inMesh(row)) {
+            mine[0] += 1;
+            mine[1] += particles.charge[row];
+        }
+    }
+    double all[2] = {0, 0};
+    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, communicator);
+    result.excludedCount = static_cast<std::int64_t>(all[0]);
+    result.excludedCharge = all[1];
+}
+
+void refuseOutside(const std::string& method, const MeshLocator& locator, const DemParticles& particles, std::int64_t count,
+                   MPI_Comm communicator)
+{
+    int tag = nothingToSay;
+    std::string text;
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!locator.inMesh(row) && particles.tag[static_cast<std::size_t>(row)] < tag) {
+            tag = particles.tag[static_cast<std::size_t>(row)];
+            text = "field method " + method + ": particle " + std::to_string(tag) + " at "
+                   + describe(particles.position.row(row).matrix().transpose()) + " is in no cell of the mesh"
+                   + (count > 1 ? " (" + std::to_string(count) + " particles are not)" : "")
+                   + ". Make the mesh cover all the space that the DEM walls leave to particles, or set "
+                     "couplingProperties.particlesOutsideMesh to excluded: such particles then neither give charge to the "
+                     "mesh nor see its field";
+        }
+    }
+    throwTogether(communicator, tag, text);
+}
+
 std::string describe(const Vector3& position)
 {
     std::ostringstream text;

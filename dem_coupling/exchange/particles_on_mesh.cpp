@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/exchange/particles_on_mesh.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace him {
+
+namespace {
+
+constexpr std::size_t payload = 5;  // position, charge, cell
+
+}  // namespace
+
+void ParticlesOnMesh::distribute(const MeshLocator& locator, const Points& position, const Scalars& charge, MeshHalo& halo,
+                                 double reach, CloudSources& sources)
+{
+    SparseExchange& exchange = halo.exchange();
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
+    sentRows_.resize(ranks);
+    targetOf_.resize(ranks);
+    exchange.clear(outgoing_);
+    for (auto& rows : sentRows_) {
+        rows.clear();
+    }
+    for (Index row = 0; row < position.rows(); ++row) {
+        if (!locator.inMesh(row)) {
+            continue;
+        }
+        const auto rank = static_cast<std::size_t>(locator.owner(row));
+        const Vector3 place = position.row(row).matrix().transpose();
+        const Vector3 inBox = place + locator.shiftIntoBox(place);
+        sentRows_[rank].push_back(row);
+        outgoing_[rank].insert(outgoing_[rank].end(),
+                               {inBox[0], inBox[1], inBox[2], charge[row], static_cast<double>(locator.cell(row))});
+    }
+    exchange.exchange(outgoing_, incoming_);
+
+    // Sorted by cell, within a cell as they came.
+    const Index cells = halo.mesh().ownCells;
+    std::vector<Index> next(static_cast<std::size_t>(cells) + 1, 0);
+    Index targets = 0;
+    for (const auto& buffer : incoming_) {
+        for (std::size_t at = 0; at < buffer.size(); at += payload, ++targets) {
+            ++next[static_cast<std::size_t>(buffer[at + 4]) + 1];
+        }
+    }
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    sources.targets = targets;
+    sources.position.resize(targets, 3);
+    sources.charge.resize(targets);
+    sources.cell.resize(static_cast<std::size_t>(targets));
+    for (std::size_t rank = 0; rank < ranks; ++rank) {
+        targetOf_[rank].clear();
+        for (std::size_t at = 0; at < incoming_[rank].size(); at += payload) {
+            const double* in = incoming_[rank].data() + at;
+            const Index target = next[static_cast<std::size_t>(in[4])]++;
+            sources.position.row(target) << in[0], in[1], in[2];
+            sources.charge[target] = in[3];
+            sources.cell[static_cast<std::size_t>(target)] = static_cast<std::int32_t>(in[4]);
+            targetOf_[rank].push_back(target);
+        }
+    }
+    addCopies(halo, reach, sources);
+}
+
+void ParticlesOnMesh::addCopies(MeshHalo& halo, double reach, CloudSources& sources)
+{
+    if (halo.holders().empty() && halo.exchange().ranks() == 1) {
+        return;
+    }
+    SparseExchange& exchange = halo.exchange();
+    exchange.clear(outgoing_);
+    for (Index row = 0; row < sources.targets; ++row) {
+        const Index cell = sources.cell[static_cast<std::size_t>(row)];
+        for (Index n = halo.firstHolder(cell); n < halo.firstHolder(cell + 1); ++n) {
+            const MeshHalo::Holder& holder = halo.holders()[static_cast<std::size_t>(n)];
+            const auto rank = static_cast<std::size_t>(holder.rank);
+            const Vector3 place = sources.position.row(row).matrix().transpose() + holder.shift;
+            const Box& bounds = halo.bounds()[rank];
+            if ((place - place.cwiseMax(bounds.lower).cwiseMin(bounds.upper)).squaredNorm() <= reach * reach) {
+                outgoing_[rank].insert(outgoing_[rank].end(), {place[0], place[1], place[2], sources.charge[row],
+                                                               static_cast<double>(holder.copy)});
+            }
+        }
+    }
+    exchange.exchange(outgoing_, incoming_);
+    Index rows = sources.targets;
+    for (const auto& buffer : incoming_) {
+        rows += static_cast<Index>(buffer.size() / payload);
+    }
+    sources.position.conservativeResize(rows, 3);
+    sources.charge.conservativeResize(rows);
+    Index row = sources.targets;
+    for (const auto& buffer : incoming_) {
+        for (std::size_t at = 0; at < buffer.size(); at += payload, ++row) {
+            sources.position.row(row) << buffer[at], buffer[at + 1], buffer[at + 2];
+            sources.charge[row] = buffer[at + 3];
+            sources.cell.push_back(static_cast<std::int32_t>(buffer[at + 4]));
+        }
+    }
+}
+
+void ParticlesOnMesh::bringBack(const Eigen::ArrayXXd& atTargets, Eigen::ArrayXXd& atRows, SparseExchange& exchange)
+{
+    const auto columns = static_cast<std::size_t>(atTargets.cols());
+    exchange.clear(outgoing_);
+    exchange.clear(incoming_);
+    for (std::size_t rank = 0; rank < targetOf_.size(); ++rank) {
+        for (const Index target : targetOf_[rank]) {
+            for (std::size_t k = 0; k < columns; ++k) {
+                outgoing_[rank].push_back(atTargets(target, static_cast<Index>(k)));
+            }
+        }
+        incoming_[rank].resize(columns * sentRows_[rank].size());
+    }
+    exchange.answer(outgoing_, incoming_);
+    atRows.setZero();
+    for (std::size_t rank = 0; rank < sentRows_.size(); ++rank) {
+        const double* in = incoming_[rank].data();
+        for (const Index row : sentRows_[rank]) {
+            for (std::size_t k = 0; k < columns; ++k) {
+                atRows(row, static_cast<Index>(k)) = *in++;
+            }
+        }
+    }
+}
+
+}  // namespace him

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/exchange/particles_on_mesh.hpp"
+#include "dem_coupling/field_method.hpp"
+#include "electrostatics/near_field.hpp"
+#include "electrostatics/p3m/cloud.hpp"
+#include "electrostatics/p3m/cloud_deposit.hpp"
+#include "electrostatics/p3m/polynomial_gather.hpp"
+
+#include <optional>
+
+namespace him {
+
+/// `p3m`: every charge is split into a short-range part, summed over pairs, and a smooth cloud whose potential the mesh
+/// solves for. Charges near planar walls bring their images into both parts; what images do not carry (curved walls,
+/// electrodes, edges) enters the mesh potential through its boundary values. See doc/p3m.md.
+class P3m : public FieldMethod {
+public:
+    /// Collective. `mesh` outlives the method.
+    P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, const std::array<bool, 3>& periodic,
+        MPI_Comm communicator, PhaseTimes& times);
+
+    void compute(const DemParticles& particles, ParticleField& result) override;
+    double partnerCutoff() const override;
+    bool hasPotential() const override { return true; }
+
+    double cloudRadius() const { return radius_; }
+
+private:
+    void depositAndSolve();
+    void setBoundaryValues();
+    void sumNear(const DemParticles& particles, ParticleField& result);
+    void addHiddenPairs();
+    void gatherAtTargets();
+    Vector3 ownCloudGradient(Index target);
+    void addOwnImages(Index target);
+
+    FieldSettings settings_;
+    PoissonMesh& mesh_;
+    MPI_Comm communicator_;
+    PhaseTimes& times_;
+    double cellSize_;
+    double reachOfCells_;  ///< largest distance of a cell's points from its centre, where particles are [m]
+    double radius_;        ///< R [m]
+    int exponent_;
+    MeshLocator locator_;
+    MeshHalo halo_;
+    SurroundingsTable surroundings_;
+    CloudDeposit deposit_;
+    PolynomialGather gather_;
+    NearField near_;
+    ChargeCloud cloud_;
+    ParticlesOnMesh particlesOnMesh_;
+    bool correct_ = false;     ///< deferred correction by a second solve
+    bool faceValues_ = false;  ///< some boundary face, on any rank, has a value besides the case's own
+
+    CloudSources sources_;
+    ChargedPoints points_;
+    std::vector<bool> hides_;
+    PairSumResult sums_;
+    Scalars cellCharge_, cellPotential_, boundaryValue_, scratchCells_, scratchFaces_;
+    /// Of the targets: field (3), potential, own response (3).
+    Eigen::ArrayXXd atTargets_, atRows_;
+};
+
+}  // namespace him

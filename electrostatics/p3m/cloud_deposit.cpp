@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "electrostatics/p3m/cloud_deposit.hpp"
+
+#include "electrostatics/constants.hpp"
+
+#include <cstring>
+
+// One binary serves every x86-64 processor: the loader picks the widest version that the machine has.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define HIM_CLONES
+#endif
+
+namespace him {
+
+namespace {
+
+constexpr Index blockSize = 8;
+using Block = double __attribute__((vector_size(blockSize * sizeof(double))));
+
+inline __attribute__((always_inline)) Block load(const double* from)
+{
+    Block block;
+    std::memcpy(&block, from, sizeof block);
+    return block;
+}
+
+inline __attribute__((always_inline)) void store(double* to, Block block) { std::memcpy(to, &block, sizeof block); }
+
+struct Cloud {
+    double x, y, z;          ///< centre [m]
+    double inverseSquare;    ///< 1/R^2 [1/m2]
+    double sign;
+};
+
+/// Adds the weights V (1 - u^2)^k of one cloud at `blocks` blocks of cells to `weight`, times the sign to `cloud`.
+/// @return sum of the weights, unsigned [m3]
+template <int exponent>
+inline __attribute__((always_inline)) double addWeights(const Cloud& c, Index blocks, const double* x, const double* y,
+                                                        const double* z, const double* volume, double* cloud)
+{
+    Block sum{};
+    for (Index n = 0; n < blocks * blockSize; n += blockSize) {
+        const Block dx = load(x + n) - c.x;
+        const Block dy = load(y + n) - c.y;
+        const Block dz = load(z + n) - c.z;
+        Block m = 1.0 - (dx * dx + dy * dy + dz * dz) * c.inverseSquare;
+        m = m > 0.0 ? m : Block{};
+        if constexpr (exponent == 2) {
+            m = m * m;
+        }
+        const Block w = m * load(volume + n);
+        sum += w;
+        store(cloud + n, load(cloud + n) + w * c.sign);
+    }
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+HIM_CLONES double addWeights1(const Cloud& c, Index blocks, const double* x, const double* y, const double* z,
+                              const double* volume, double* cloud)
+{
+    return addWeights<1>(c, blocks, x, y, z, volume, cloud);
+}
+
+HIM_CLONES double addWeights2(const Cloud& c, Index blocks, const double* x, const double* y, const double* z,
+                              const double* volume, double* cloud)
+{
+    return addWeights<2>(c, blocks, x, y, z, volume, cloud);
+}
+
+}  // namespace
+
+CloudDeposit::CloudDeposit(const LocalMesh& mesh, SurroundingsTable& table, double radius, int exponent)
+    : mesh_(mesh),
+      table_(table),
+      radius_(radius),
+      exponent_(exponent),
+      amplitude_((exponent == 1 ? 15.0 / 8.0 : 105.0 / 32.0) / (pi * radius * radius * radius))
+{
+}
+
+void CloudDeposit::loadCells(Index host)
+{
+    const Surroundings& around = table_.of(host);
+    Index count = 0;
+    for (const RowRange& range : around.cells) {
+        count += range.end - range.begin;
+    }
+    const Index padded = (count + blockSize - 1) / blockSize * blockSize;
+    if (x_.size() < padded) {
+        for (Scalars* values : {&x_, &y_, &z_, &volume_, &cloud_, &charge_}) {
+            values->setZero(2 * padded);
+        }
+    }
+    Index to = 0;
+    for (const RowRange& range : around.cells) {
+        const Index length = range.end - range.begin;
+        x_.segment(to, length) = mesh_.centre.col(0).segment(range.begin, length);
+        y_.segment(to, length) = mesh_.centre.col(1).segment(range.begin, length);
+        z_.segment(to, length) = mesh_.centre.col(2).segment(range.begin, length);
+        volume_.segment(to, length) = mesh_.volume.segment(range.begin, length);
+        to += length;
+    }
+    volume_.segment(count, padded - count).setZero();
+    charge_.head(padded).setZero();
+    loaded_ = padded;
+}
+
+void CloudDeposit::addCloud(const CloudSources& sources, Index row, bool normalise)
+{
+    cloud_.head(loaded_).setZero();
+    const auto add = exponent_ == 1 ? addWeights1 : addWeights2;
+    const double inverseSquare = 1.0 / (radius_ * radius_);
+    Cloud c{sources.position(row, 0), sources.position(row, 1), sources.position(row, 2), inverseSquare, 1.0};
+    const Index blocks = loaded_ / blockSize;
+    double total = add(c, blocks, x_.data(), y_.data(), z_.data(), volume_.data(), cloud_.data());
+    for (auto n = static_cast<std::size_t>(sources.firstImage[static_cast<std::size_t>(row)]);
+         n < static_cast<std::size_t>(sources.firstImage[static_cast<std::size_t>(row) + 1]); ++n) {
+        const Image& image = sources.images[n];
+        c = {image.position[0], image.position[1], image.position[2], inverseSquare, image.sign};
+        total += add(c, blocks, x_.data(), y_.data(), z_.data(), volume_.data(), cloud_.data());
+    }
+    const double scale = normalise ? (total > 0 ? 1.0 / total : 0.0) : amplitude_;
+    charge_.head(loaded_) += sources.charge[row] * scale * cloud_.head(loaded_);
+}
+
+void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
+{
+    cellCharge.setZero(mesh_.ownCells);
+    Index row = 0;
+    while (row < sources.size()) {
+        const std::int32_t host = sources.cell[static_cast<std::size_t>(row)];
+        const Surroundings& around = table_.of(host);
+        loadCells(host);
+        for (; row < sources.size() && sources.cell[static_cast<std::size_t>(row)] == host; ++row) {
+            addCloud(sources, row, !around.wallWithoutImage);
+        }
+        Index from = 0;
+        for (const RowRange& range : around.cells) {
+            const Index length = range.end - range.begin;
+            const Index own = std::min(range.end, mesh_.ownCells) - range.begin;
+            if (own > 0) {
+                cellCharge.segment(range.begin, own) += charge_.segment(from, own);
+            }
+            from += length;
+        }
+    }
+}
+
+}  // namespace him

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "electrostatics/p3m/cloud_sources.hpp"
+
+namespace him {
+
+/// Samples the clouds g = c (1 - (r/R)^2)^k of charges and their images at the cell centres. The weights
+/// w_c = V_c g(|x_c - x_j|) of a charge and its own images are divided by their sum T_j, so that its charge on the mesh is
+/// exact however few cells the cloud sees; where a wall in reach has no image, only the part of the cloud inside the mesh
+/// counts and c alone scales it.
+class CloudDeposit {
+public:
+    /// @param mesh, table  outlive this
+    /// @param radius       R [m]
+    /// @param exponent     k, 1 or 2
+    CloudDeposit(const LocalMesh& mesh, SurroundingsTable& table, double radius, int exponent);
+
+    /// Charge [C] of the own cells from all sources.
+    void deposit(const CloudSources& sources, Scalars& cellCharge);
+
+private:
+    void loadCells(Index host);
+    void addCloud(const CloudSources& sources, Index row, bool normalise);
+
+    const LocalMesh& mesh_;
+    SurroundingsTable& table_;
+    double radius_;
+    int exponent_;
+    double amplitude_;  ///< c [1/m3]
+    Index loaded_ = 0;  ///< cells around the present host
+    Scalars x_, y_, z_, volume_, weight_, cloud_, charge_;
+};
+
+}  // namespace him

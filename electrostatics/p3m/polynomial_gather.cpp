@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "electrostatics/p3m/polynomial_gather.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define HIM_CLONES
+#endif
+
+namespace him {
+
+namespace {
+
+/// Relative places are rounded to this share of the cell size, so that stencils which differ by round-off are the same and
+/// the fit does not depend on which came first.
+constexpr double rounding = 1e-7;
+
+/// A fit whose gradient at the rim of the cell magnifies errors of the values more than this is refused.
+constexpr double mostAmplification = 30;
+
+constexpr int coefficientsOf(int order)
+{
+    return (order + 1) * (order + 2) * (order + 3) / 6 - 1;
+}
+
+/// Least number of points for an order: about three per coefficient for cubic, as the layers of a hexahedral mesh give.
+int fewestPoints(int order)
+{
+    return order == 4 ? 100 : 50;
+}
+
+/// Monomials of degree 1 to `order` at xi: x y z, xx xy xz yy yz zz, xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz, ...
+void monomials(const Vector3& xi, int order, double* out)
+{
+    int n = 0;
+    for (int degree = 1; degree <= order; ++degree) {
+        for (int a = degree; a >= 0; --a) {
+            for (int b = degree - a; b >= 0; --b) {
+                const int c = degree - a - b;
+                double value = 1;
+                for (int i = 0; i < a; ++i) {
+                    value *= xi[0];
+                }
+                for (int i = 0; i < b; ++i) {
+                    value *= xi[1];
+                }
+                for (int i = 0; i < c; ++i) {
+                    value *= xi[2];
+                }
+                out[n++] = value;
+            }
+        }
+    }
+}
+
+/// Derivatives of the monomials along `direction` at xi.
+void derivatives(const Vector3& xi, const Vector3& direction, int order, double* out)
+{
+    const auto power = [](double base, int exponent) {
+        double value = 1;
+        for (int i = 0; i < exponent; ++i) {
+            value *= base;
+        }
+        return value;
+    };
+    int n = 0;
+    for (int degree = 1; degree <= order; ++degree) {
+        for (int a = degree; a >= 0; --a) {
+            for (int b = degree - a; b >= 0; --b) {
+                const int c = degree - a - b;
+                double value = 0;
+                if (a > 0) {
+                    value += direction[0] * a * power(xi[0], a - 1) * power(xi[1], b) * power(xi[2], c);
+                }
+                if (b > 0) {
+                    value += direction[1] * b * power(xi[0], a) * power(xi[1], b - 1) * power(xi[2], c);
+                }
+                if (c > 0) {
+                    value += direction[2] * c * power(xi[0], a) * power(xi[1], b) * power(xi[2], c - 1);
+                }
+                out[n++] = value;
+            }
+        }
+    }
+}
+
+double weightOf(double squaredDistance, int order)
+{
+    return order == 4 ? std::pow(1.0 + squaredDistance, -6) : std::pow(0.3 + squaredDistance, -4);
+}
+
+std::uint64_t hashOf(const std::vector<std::int64_t>& key)
+{
+    std::uint64_t hash = 1469598103934665603ULL;
+    for (const std::int64_t value : key) {
+        hash = (hash ^ static_cast<std::uint64_t>(value)) * 1099511628211ULL;
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+/// sums[k] += sum over points of values[p] matrix[p][k], eight at a time.
+HIM_CLONES void accumulate(const double* matrix, int padded, const double* values, int points, double* sums)
+{
+    using Block = double __attribute__((vector_size(64), aligned(8)));
+    Block total[(PolynomialGather::mostCoefficients + 6) / 8] = {};
+    const int blocks = padded / 8;
+    for (int p = 0; p < points; ++p) {
+        const auto* row = reinterpret_cast<const Block*>(matrix + static_cast<std::ptrdiff_t>(p) * padded);
+        for (int b = 0; b < blocks; ++b) {
+            total[b] += row[b] * values[p];
+        }
+    }
+    for (int b = 0; b < blocks; ++b) {
+        reinterpret_cast<Block*>(sums)[b] = total[b];
+    }
+}
+
+}  // namespace
+
+PolynomialGather::PolynomialGather(const LocalMesh& mesh, int order)
+    : mesh_(mesh),
+      order_(order),
+      stencils_(static_cast<std::size_t>(mesh.ownCells)),
+      mark_(static_cast<std::size_t>(mesh.cells()), 0)
+{
+}
+
+const PolynomialGather::Stencil& PolynomialGather::stencilOf(Index cell)
+{
+    Stencil& stencil = stencils_[static_cast<std::size_t>(cell)];
+    if (!stencil.fit) {
+        stencil = make(cell);
+    }
+    return stencil;
+}
+
+/// Whole layers of cells until there are enough points, boundary faces included. The cell itself is no point.
+void PolynomialGather::collect(Index cell, Stencil& stencil)
+{
+    ++stamp_;
+    mark_[static_cast<std::size_t>(cell)] = stamp_;
+    std::vector<std::int32_t> layer{static_cast<std::int32_t>(cell)};
+    const auto points = [&] { return static_cast<int>(stencil.cells.size() + stencil.faces.size()); };
+    for (const std::int32_t face : mesh_.facesOfCell[cell]) {
+        stencil.faces.push_back(face);
+    }
+    for (int n = 1; n <= layers(order_) && points() < fewestPoints(order_); ++n) {
+        std::vector<std::int32_t> next;
+        for (const std::int32_t here : layer) {
+            for (const std::int32_t neighbour : mesh_.neighbours[here]) {
+                if (mark_[static_cast<std::size_t>(neighbour)] != stamp_) {
+                    mark_[static_cast<std::size_t>(neighbour)] = stamp_;
+                    next.push_back(neighbour);
+                    stencil.cells.push_back(neighbour);
+                    for (const std::int32_t face : mesh_.facesOfCell[neighbour]) {
+                        stencil.faces.push_back(face);
+                    }
+                }
+            }
+        }
+        layer.swap(next);
+    }
+}
+
+/// Inverse root of the mean second moment of the steps to the neighbours (doubled steps to boundary faces): 1/h on cubes,
+/// and coordinates in which a stretched cell becomes one.
+Eigen::Matrix3d PolynomialGather::scaleOf(Index cell) const
+{
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    const Vector3 centre = mesh_.centreOf(cell);
+    int steps = 0;
+    for (const std::int32_t neighbour : mesh_.neighbours[cell]) {
+        const Vector3 step = mesh_.centreOf(neighbour) - centre;
+        moment += step * step.transpose();
+        ++steps;
+    }
+    for (const std::int32_t face : mesh_.facesOfCell[cell]) {
+        const Vector3 step = 2 * (mesh_.boundary.centre.row(face).matrix().transpose() - centre);
+        moment += step * step.transpose();
+        ++steps;
+    }
+    moment *= 3.0 / steps;
+    const double h = cellSize(mesh_, cell);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moment);
+    // Round-off must not tell equal cells apart: the scale is rounded like the places.
+    Eigen::Matrix3d scale = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1e-12 * h * h).cwiseSqrt().cwiseInverse().asDiagonal()
+                            * eigen.eigenvectors().transpose();
+    scale = ((scale * h / rounding).array().round() * (rounding / h)).matrix();
+    return scale;
+}
+
+const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stencil)
+{
+    const Vector3 centre = mesh_.centreOf(cell);
+    const Eigen::Matrix3d scale = scaleOf(cell);
+    const double h = cellSize(mesh_, cell);
+    const double hRounded = std::exp(std::round(std::log(h) / rounding) * rounding);
+
+    struct Point {
+        std::array<std::int64_t, 4> key;  // rounded place, kind
+        std::int32_t index;
+    };
+    std::vector<Point> points;
+    const auto rounded = [&](const Vector3& x, int axis) { return std::llround((x[axis] - centre[axis]) / (h * rounding)); };
+    for (const std::int32_t other : stencil.cells) {
+        const Vector3 x = mesh_.centreOf(other);
+        points.push_back({{0, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, other});
+    }
+    for (const std::int32_t face : stencil.faces) {
+        const Vector3 x = mesh_.boundary.centre.row(face).matrix().transpose();
+        const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
+        points.push_back({{conductor ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face});
+    }
+    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.key < b.key; });
+    stencil.cells.clear();
+    stencil.faces.clear();
+    std::vector<std::int64_t> key{std::llround(std::log(h) / rounding)};
+    for (int i = 0; i < 9; ++i) {
+        key.push_back(std::llround(scale(i) * h / rounding));
+    }
+    for (const Point& point : points) {
+        key.insert(key.end(), point.key.begin(), point.key.end());
+        (point.key[0] == 0 ? stencil.cells : stencil.faces).push_back(point.index);
+        if (point.key[0] == 2) {
+            for (int axis = 0; axis < 3; ++axis) {
+                key.push_back(std::llround(mesh_.boundary.normal(point.index, axis) / rounding));
+            }
+        }
+    }
+    auto& known = fits_[hashOf(key)];
+    for (const auto& fit : known) {
+        if (fit->key == key) {
+            return fit.get();
+        }
+    }
+
+    auto fit = std::make_unique<Fit>();
+    fit->scale = scale;
+    const auto rows = static_cast<Index>(points.size());
+    for (int order = order_; order >= 1; --order) {
+        const int columns = coefficientsOf(order);
+        if (rows < columns) {
+            continue;
+        }
+        Eigen::MatrixXd weighted(rows, columns);
+        Eigen::VectorXd weights(rows);
+        std::array<double, mostCoefficients> row{};
+        for (Index n = 0; n < rows; ++n) {
+            const Point& point = points[static_cast<std::size_t>(n)];
+            const Vector3 step = Vector3(static_cast<double>(point.key[1]), static_cast<double>(point.key[2]),
+                                         static_cast<double>(point.key[3]))
+                                 * (h * rounding);
+            const Vector3 xi = scale * step;
+            weights[n] = std::sqrt(weightOf(xi.squaredNorm(), order));
+            if (point.key[0] == 2) {
+                const Vector3 normal = mesh_.boundary.normal.row(point.index).matrix().transpose();
+                derivatives(xi, hRounded * (scale * normal), order, row.data());  // the value is h times the gradient
+            } else {
+                monomials(xi, order, row.data());
+            }
+            weighted.row(n) = weights[n] * Eigen::Map<Eigen::RowVectorXd>(row.data(), columns);
+        }
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(weighted);
+        if (qr.rank() < columns) {
+            continue;
+        }
+        const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd(weights.asDiagonal()));
+
+        // How much the gradient at the rim of the cell magnifies errors of the values.
+        double amplification = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vector3 xi(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
+            for (int axis = 0; axis < 3; ++axis) {
+                derivatives(xi, Vector3::Unit(axis), order, row.data());
+                const Eigen::RowVectorXd gradient = Eigen::Map<Eigen::RowVectorXd>(row.data(), columns) * inverse;
+                amplification = std::max(amplification, gradient.cwiseAbs().sum());
+            }
+        }
+        if (amplification > mostAmplification && order > 1) {
+            continue;
+        }
+        fit->order = order;
+        fit->padded = (columns + 7) / 8 * 8;
+        fit->matrix.assign(static_cast<std::size_t>(rows * fit->padded), 0.0);
+        fit->laplacian.assign(static_cast<std::size_t>(rows), 0.0);
+        // Second derivatives of the monomials of degree 2 at xi = 0, through the scale.
+        const Eigen::Matrix3d metric = scale * scale.transpose();
+        const std::array<double, 6> second{2 * metric(0, 0), 2 * metric(0, 1), 2 * metric(0, 2),
+                                           2 * metric(1, 1), 2 * metric(1, 2), 2 * metric(2, 2)};
+        for (Index n = 0; n < rows; ++n) {
+            for (int k = 0; k < columns; ++k) {
+                fit->matrix[static_cast<std::size_t>(n * fit->padded + k)] = inverse(k, n);
+            }
+            for (int k = 0; order >= 2 && k < 6; ++k) {
+                fit->laplacian[static_cast<std::size_t>(n)] += second[static_cast<std::size_t>(k)] * inverse(3 + k, n);
+            }
+        }
+        break;
+    }
+    fit->key = std::move(key);
+    known.push_back(std::move(fit));
+    return known.back().get();
+}
+
+PolynomialGather::Stencil PolynomialGather::make(Index cell)
+{
+    Stencil stencil;
+    collect(cell, stencil);
+    stencil.fit = fitOf(cell, stencil);
+    fallbacks_ += stencil.fit->order < order_;
+    return stencil;
+}
+
+void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars& faceValues, Polynomial& polynomial)
+{
+    const Stencil& stencil = stencilOf(cell);
+    const Fit& fit = *stencil.fit;
+    polynomial.centre = mesh_.centreOf(cell);
+    polynomial.scale = fit.scale;
+    polynomial.value = cellValues[cell];
+    polynomial.order = fit.order;
+    polynomial.coefficients.fill(0.0);
+    thread_local std::vector<double> values;
+    values.clear();
+    for (const std::int32_t other : stencil.cells) {
+        values.push_back(cellValues[other] - polynomial.value);
+    }
+    const double h = cellSize(mesh_, cell);
+    for (const std::int32_t face : stencil.faces) {
+        const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
+        values.push_back(conductor ? faceValues[face] - polynomial.value : h * faceValues[face]);
+    }
+    accumulate(fit.matrix.data(), fit.padded, values.data(), static_cast<int>(values.size()), polynomial.coefficients.data());
+}
+
+double PolynomialGather::laplacian(Index cell, const Scalars& cellValues, const Scalars& faceValues)
+{
+    const Stencil& stencil = stencilOf(cell);
+    const double value = cellValues[cell];
+    const double* weight = stencil.fit->laplacian.data();
+    double sum = 0;
+    for (const std::int32_t other : stencil.cells) {
+        sum += *weight++ * (cellValues[other] - value);
+    }
+    const double h = cellSize(mesh_, cell);
+    for (const std::int32_t face : stencil.faces) {
+        const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
+        sum += *weight++ * (conductor ? faceValues[face] - value : h * faceValues[face]);
+    }
+    return sum;
+}
+
+double PolynomialGather::Polynomial::at(const Vector3& x) const
+{
+    const Vector3 xi = scale * (x - centre);
+    std::array<double, mostCoefficients> basis{};
+    monomials(xi, order, basis.data());
+    double sum = value;
+    for (int k = 0; k < coefficientsOf(order); ++k) {
+        sum += coefficients[static_cast<std::size_t>(k)] * basis[static_cast<std::size_t>(k)];
+    }
+    return sum;
+}
+
+/// Written out, because it is called once per particle: Horner's scheme in x, y, z of the polynomial's derivatives.
+Vector3 PolynomialGather::Polynomial::gradient(const Vector3& place) const
+{
+    const Vector3 xi = scale * (place - centre);
+    const double x = xi[0], y = xi[1], z = xi[2];
+    const double* c = coefficients.data();
+    Vector3 g(c[0], c[1], c[2]);
+    if (order >= 2) {
+        g += Vector3(2 * c[3] * x + c[4] * y + c[5] * z, c[4] * x + 2 * c[6] * y + c[7] * z, c[5] * x + c[7] * y + 2 * c[8] * z);
+    }
+    if (order >= 3) {
+        // 9 xxx, 10 xxy, 11 xxz, 12 xyy, 13 xyz, 14 xzz, 15 yyy, 16 yyz, 17 yzz, 18 zzz
+        const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
+        g += Vector3(3 * c[9] * xx + 2 * c[10] * xy + 2 * c[11] * xz + c[12] * yy + c[13] * yz + c[14] * zz,
+                     c[10] * xx + 2 * c[12] * xy + c[13] * xz + 3 * c[15] * yy + 2 * c[16] * yz + c[17] * zz,
+                     c[11] * xx + c[13] * xy + 2 * c[14] * xz + c[16] * yy + 2 * c[17] * yz + 3 * c[18] * zz);
+        if (order >= 4) {
+            // 19 xxxx, 20 xxxy, 21 xxxz, 22 xxyy, 23 xxyz, 24 xxzz, 25 xyyy, 26 xyyz, 27 xyzz, 28 xzzz,
+            // 29 yyyy, 30 yyyz, 31 yyzz, 32 yzzz, 33 zzzz
+            g += Vector3(xx * (4 * c[19] * x + 3 * c[20] * y + 3 * c[21] * z) + 2 * x * (c[22] * yy + c[23] * yz + c[24] * zz)
+                             + yy * (c[25] * y + c[26] * z) + zz * (c[27] * y + c[28] * z),
+                         xx * (c[20] * x + 2 * c[22] * y + c[23] * z) + x * (3 * c[25] * yy + 2 * c[26] * yz + c[27] * zz)
+                             + yy * (4 * c[29] * y + 3 * c[30] * z) + zz * (2 * c[31] * y + c[32] * z),
+                         xx * (c[21] * x + c[23] * y + 2 * c[24] * z) + x * (c[26] * yy + 2 * c[27] * yz + 3 * c[28] * zz)
+                             + yy * (c[30] * y + 2 * c[31] * z) + zz * (3 * c[32] * y + 4 * c[33] * z));
+        }
+    }
+    return scale.transpose() * g;
+}
+
+}  // namespace him
