@@ -3,6 +3,7 @@
 
 #include "dem_coupling/field_methods/direct_truncation.hpp"
 #include "dem_coupling/field_methods/him.hpp"
+#include "dem_coupling/field_methods/p3m.hpp"
 #include "dem_coupling/field_methods/pairwise_sum.hpp"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ const std::vector<Method>& methods()
         {"pairwiseSum", false, false},
         {"directTruncation", false, true},
         {"him", true, true},
+        {"p3m", true, false},
     };
     return list;
 }
@@ -131,7 +133,7 @@ Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* 
     }
     if (method->needsCutoff) {
         checkCutoff(settings, method->needsMesh ? mesh : nullptr, demBox, periodic, complaints);
-    } else if (periodic[0] || periodic[1] || periodic[2]) {
+    } else if (!method->needsMesh && (periodic[0] || periodic[1] || periodic[2])) {
         complaints.add(entry, settings.method
                                   + " sums every pair once, and in a periodic DEM box every charge has infinitely "
                                     "many copies. Use a DEM box without periodic directions, or another field method");
@@ -152,6 +154,9 @@ std::unique_ptr<FieldMethod> FieldMethod::create(const FieldSettings& settings, 
     }
     if (settings.method == "directTruncation") {
         return std::make_unique<DirectTruncation>(settings, demBox, periodic, communicator, times);
+    }
+    if (settings.method == "p3m") {
+        return std::make_unique<P3m>(settings, *mesh, demBox, periodic, communicator, times);
     }
     return std::make_unique<Him>(settings, *mesh, demBox, periodic, communicator, times);
 }

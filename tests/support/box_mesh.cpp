@@ -45,6 +45,93 @@ BoxMesh::BoxMesh(const Box& box, const std::array<Index, 3>& cells, double permi
     first_ = cells[0] * rank / ranks;
     last_ = cells[0] * (rank + 1) / ranks;
     potential_.setZero(cells[0] * cells[1] * cells[2]);
+    makeArrays();
+}
+
+void BoxMesh::makeArrays()
+{
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(communicator_, &rank);
+    MPI_Comm_size(communicator_, &ranks);
+    const Index slab = last_ - first_;
+    const Index count = slab * cells_[1] * cells_[2];
+    arrays_.centre.resize(count, 3);
+    arrays_.volume.setConstant(count, cellVolume());
+    arrays_.radius.setConstant(count, 0.5 * size_.norm());
+    std::vector<Vector3> internal, internalArea, boundary, normal, coupled, coupledArea, shift;
+    const auto rankOf = [&](Index i) {
+        int r = 0;
+        while (i >= cells_[0] * (r + 1) / ranks) {
+            ++r;
+        }
+        return r;
+    };
+    for (Index cell = 0; cell < count; ++cell) {
+        arrays_.centre.row(cell) = cellCentre(cell).transpose().array();
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const int side : {-1, 1}) {
+                const auto a = static_cast<std::size_t>(axis);
+                Indices other = indicesOf(cell);
+                other[a] += side;
+                const Vector3 faceCentre = cellCentre(cell) + 0.5 * side * size_[axis] * Vector3::Unit(axis);
+                const Vector3 area = side * (cellVolume() / size_[axis]) * Vector3::Unit(axis);
+                Vector3 step = Vector3::Zero();
+                if (other[a] < 0 || other[a] >= cells_[a]) {
+                    if (!periodic_[a]) {
+                        boundary.push_back(faceCentre);
+                        normal.push_back(side * Vector3::Unit(axis));
+                        arrays_.boundary.cell.push_back(static_cast<std::int32_t>(cell));
+                        arrays_.boundary.condition.push_back(FaceCondition::conductor);
+                        continue;
+                    }
+                    other[a] = (other[a] + cells_[a]) % cells_[a];
+                    step[axis] = side * box_.size()[axis];
+                }
+                const int otherRank = rankOf(other[0]);
+                const Index otherFirst = cells_[0] * otherRank / ranks;
+                const Index otherSlab = cells_[0] * (otherRank + 1) / ranks - otherFirst;
+                const Index otherCell = other[0] - otherFirst + otherSlab * (other[1] + cells_[1] * other[2]);
+                if (otherRank == rank && step.isZero(0)) {
+                    if (side > 0) {
+                        internal.push_back(faceCentre);
+                        internalArea.push_back(area);
+                        arrays_.internal.owner.push_back(static_cast<std::int32_t>(cell));
+                        arrays_.internal.neighbour.push_back(static_cast<std::int32_t>(otherCell));
+                    }
+                    continue;
+                }
+                coupled.push_back(faceCentre);
+                coupledArea.push_back(area);
+                shift.push_back(step);
+                arrays_.coupled.cell.push_back(static_cast<std::int32_t>(cell));
+                arrays_.coupled.otherRank.push_back(otherRank);
+                arrays_.coupled.otherCell.push_back(static_cast<std::int32_t>(otherCell));
+            }
+        }
+    }
+    const auto toPoints = [](const std::vector<Vector3>& from) {
+        Points points(static_cast<Index>(from.size()), 3);
+        for (std::size_t n = 0; n < from.size(); ++n) {
+            points.row(static_cast<Index>(n)) = from[n].transpose().array();
+        }
+        return points;
+    };
+    arrays_.internal.centre = toPoints(internal);
+    arrays_.internal.areaVector = toPoints(internalArea);
+    arrays_.boundary.centre = toPoints(boundary);
+    arrays_.boundary.normal = toPoints(normal);
+    arrays_.boundary.area.resize(arrays_.boundary.size());
+    arrays_.boundary.radius.resize(arrays_.boundary.size());
+    arrays_.boundary.value.setZero(arrays_.boundary.size());
+    for (Index face = 0; face < arrays_.boundary.size(); ++face) {
+        const Vector3 n = normal[static_cast<std::size_t>(face)].cwiseAbs();
+        arrays_.boundary.area[face] = cellVolume() / n.dot(size_);
+        arrays_.boundary.radius[face] = 0.5 * (size_ - n.cwiseProduct(size_)).norm();
+    }
+    arrays_.coupled.centre = toPoints(coupled);
+    arrays_.coupled.areaVector = toPoints(coupledArea);
+    arrays_.coupled.shift = toPoints(shift);
 }
 
 Box BoxMesh::localBounds() const
@@ -104,26 +191,72 @@ void BoxMesh::transform(Scalars& values, bool back) const
     alongZ = (alongZ * mode(2).transpose()).eval();
 }
 
-void BoxMesh::solve(const Scalars& cellCharge)
+Scalars BoxMesh::gathered(const Scalars& ownValues) const
 {
-    potential_.setZero();
-    for (Index cell = 0; cell < cellCharge.size(); ++cell) {
+    Scalars all = Scalars::Zero(potential_.size());
+    for (Index cell = 0; cell < ownValues.size(); ++cell) {
         const Indices indices = indicesOf(cell);
-        potential_[indices[0] + cells_[0] * (indices[1] + cells_[1] * indices[2])] = cellCharge[cell];
+        all[indices[0] + cells_[0] * (indices[1] + cells_[1] * indices[2])] = ownValues[cell];
     }
-    MPI_Allreduce(MPI_IN_PLACE, potential_.data(), static_cast<int>(potential_.size()), MPI_DOUBLE, MPI_SUM, communicator_);
-    chargeOnMesh_ = potential_.sum();
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+    return all;
+}
 
-    transform(potential_, false);
+void BoxMesh::solveWhole(Scalars& values, Operator kind) const
+{
+    const auto eigenvalue = [&](std::size_t axis, Index n) {
+        const double h = size_[static_cast<Index>(axis)];
+        const double second = eigenvalues_[axis][n];
+        if (kind == Operator::second) {
+            return second;
+        }
+        const double cosine = std::max(-1.0, 1 - 0.5 * second * h * h);
+        const double theta = std::acos(cosine);
+        return (kind == Operator::fourth ? (30 - 32 * cosine + 2 * std::cos(2 * theta)) / 12 : theta * theta) / (h * h);
+    };
+    transform(values, false);
     Index n = 0;
     for (Index k = 0; k < cells_[2]; ++k) {
         for (Index j = 0; j < cells_[1]; ++j) {
             for (Index i = 0; i < cells_[0]; ++i, ++n) {
-                potential_[n] /= permittivity_ * cellVolume() * (eigenvalues_[0][i] + eigenvalues_[1][j] + eigenvalues_[2][k]);
+                values[n] /= permittivity_ * cellVolume() * (eigenvalue(0, i) + eigenvalue(1, j) + eigenvalue(2, k));
             }
         }
     }
-    transform(potential_, true);
+    transform(values, true);
+}
+
+void BoxMesh::solve(const Scalars& cellCharge)
+{
+    potential_ = gathered(cellCharge);
+    chargeOnMesh_ = potential_.sum();
+    solveWhole(potential_, Operator::second);
+}
+
+void BoxMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
+{
+    Scalars source = cellCharge;
+    for (Index face = 0; face < arrays_.boundary.size(); ++face) {
+        const Vector3 n = arrays_.boundary.normal.row(face).matrix().transpose().cwiseAbs();
+        source[arrays_.boundary.cell[static_cast<std::size_t>(face)]] +=
+            permittivity_ * arrays_.boundary.area[face] * boundaryValue[face] / (0.5 * n.dot(size_));
+    }
+    potential_ = gathered(source);
+    chargeOnMesh_ = gathered(cellCharge).sum();
+    solveWhole(potential_, operator_);
+}
+
+void BoxMesh::correct(const Scalars& residual)
+{
+    Scalars change = gathered(residual);
+    solveWhole(change, Operator::second);
+    potential_ += change;
+}
+
+bool BoxMesh::useFourthOrderOperator()
+{
+    operator_ = accurateOperator;
+    return operator_ != Operator::second;
 }
 
 Vector3 BoxMesh::electricField(Index cell) const

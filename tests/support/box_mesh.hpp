@@ -26,6 +26,16 @@ public:
     void solve(const Scalars& cellCharge) override;
     Vector3 electricField(Index cell) const override;
     double potential(Index cell) const override;
+    const MeshArrays& arrays() const override { return arrays_; }
+    void solve(const Scalars& cellCharge, const Scalars& boundaryValue) override;
+    void correct(const Scalars& residual) override;
+    bool useFourthOrderOperator() override;
+
+    /// How -d2/dx2 acts on a mode that changes by the phase theta from cell to cell: of the second order (the finite-volume
+    /// operator), of the fourth order with odd reflection at the walls, or exactly.
+    enum class Operator { second, fourth, spectral };
+    /// What useFourthOrderOperator() switches to; `second` refuses it.
+    Operator accurateOperator = Operator::second;
 
     double cellVolume() const { return size_.prod(); }
     /// Sum of what the last solve() was given, over all ranks [C].
@@ -39,6 +49,10 @@ private:
         return potential_[indices[0] + cells_[0] * (indices[1] + cells_[1] * indices[2])];
     }
     void transform(Scalars& values, bool back) const;
+    void makeArrays();
+    /// Potential of all cells for a charge of all cells [C] under walls at 0 V.
+    void solveWhole(Scalars& values, Operator kind) const;
+    Scalars gathered(const Scalars& ownValues) const;
 
     Box box_;
     Indices cells_;
@@ -51,6 +65,8 @@ private:
     std::array<Eigen::VectorXd, 3> eigenvalues_;    ///< [1/m2]
     Scalars potential_;                             ///< [V], all cells of all ranks
     double chargeOnMesh_ = 0;
+    MeshArrays arrays_;
+    Operator operator_ = Operator::second;
 };
 
 }  // namespace him
