@@ -8,12 +8,13 @@ namespace him {
 
 namespace {
 
-constexpr std::size_t payload = 5;  // position, charge, cell
+constexpr std::size_t payload = 5;      // position, charge, cell
+constexpr std::size_t ownPayload = 6;   // and the tag
 
 }  // namespace
 
-void ParticlesOnMesh::distribute(const MeshLocator& locator, const Points& position, const Scalars& charge, MeshHalo& halo,
-                                 double reach, CloudSources& sources)
+void ParticlesOnMesh::distribute(const MeshLocator& locator, const DemParticles& particles, MeshHalo& halo, double reach,
+                                 CloudSources& sources)
 {
     SparseExchange& exchange = halo.exchange();
     const auto ranks = static_cast<std::size_t>(exchange.ranks());
@@ -23,16 +24,17 @@ void ParticlesOnMesh::distribute(const MeshLocator& locator, const Points& posit
     for (auto& rows : sentRows_) {
         rows.clear();
     }
-    for (Index row = 0; row < position.rows(); ++row) {
+    for (Index row = 0; row < particles.size(); ++row) {
         if (!locator.inMesh(row)) {
             continue;
         }
         const auto rank = static_cast<std::size_t>(locator.owner(row));
-        const Vector3 place = position.row(row).matrix().transpose();
+        const Vector3 place = particles.position.row(row).matrix().transpose();
         const Vector3 inBox = place + locator.shiftIntoBox(place);
         sentRows_[rank].push_back(row);
         outgoing_[rank].insert(outgoing_[rank].end(),
-                               {inBox[0], inBox[1], inBox[2], charge[row], static_cast<double>(locator.cell(row))});
+                               {inBox[0], inBox[1], inBox[2], particles.charge[row], static_cast<double>(locator.cell(row)),
+                                static_cast<double>(particles.tag[static_cast<std::size_t>(row)])});
     }
     exchange.exchange(outgoing_, incoming_);
 
@@ -41,7 +43,7 @@ void ParticlesOnMesh::distribute(const MeshLocator& locator, const Points& posit
     std::vector<Index> next(static_cast<std::size_t>(cells) + 1, 0);
     Index targets = 0;
     for (const auto& buffer : incoming_) {
-        for (std::size_t at = 0; at < buffer.size(); at += payload, ++targets) {
+        for (std::size_t at = 0; at < buffer.size(); at += ownPayload, ++targets) {
             ++next[static_cast<std::size_t>(buffer[at + 4]) + 1];
         }
     }
@@ -50,14 +52,16 @@ void ParticlesOnMesh::distribute(const MeshLocator& locator, const Points& posit
     sources.position.resize(targets, 3);
     sources.charge.resize(targets);
     sources.cell.resize(static_cast<std::size_t>(targets));
+    tags_.resize(static_cast<std::size_t>(targets));
     for (std::size_t rank = 0; rank < ranks; ++rank) {
         targetOf_[rank].clear();
-        for (std::size_t at = 0; at < incoming_[rank].size(); at += payload) {
+        for (std::size_t at = 0; at < incoming_[rank].size(); at += ownPayload) {
             const double* in = incoming_[rank].data() + at;
             const Index target = next[static_cast<std::size_t>(in[4])]++;
             sources.position.row(target) << in[0], in[1], in[2];
             sources.charge[target] = in[3];
             sources.cell[static_cast<std::size_t>(target)] = static_cast<std::int32_t>(in[4]);
+            tags_[static_cast<std::size_t>(target)] = static_cast<int>(in[5]);
             targetOf_[rank].push_back(target);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/exchange/mesh_halo.hpp"
 #include "dem_coupling/exchange/mesh_locator.hpp"
 #include "electrostatics/p3m/cloud_sources.hpp"
@@ -14,8 +15,10 @@ public:
     /// Fills `sources` with the charges in this rank's cells, sorted by cell, as targets, then with copies of all charges of
     /// other ranks and periods within `reach` [m] of the box around this rank's cell centres. Collective.
     /// @param locator  after locate() of these positions; rows outside the mesh are left out
-    void distribute(const MeshLocator& locator, const Points& position, const Scalars& charge, MeshHalo& halo, double reach,
+    void distribute(const MeshLocator& locator, const DemParticles& particles, MeshHalo& halo, double reach,
                     CloudSources& sources);
+    /// Tags of the targets.
+    const std::vector<int>& tags() const { return tags_; }
 
     /// Values of the targets, one row each, to the rows of the positions; zero for rows outside the mesh. Only neighbours
     /// talk.
@@ -24,6 +27,7 @@ public:
 private:
     void addCopies(MeshHalo& halo, double reach, CloudSources& sources);
 
+    std::vector<int> tags_;
     std::vector<std::vector<Index>> sentRows_;      ///< rows that each rank got
     std::vector<std::vector<Index>> targetOf_;      ///< target that what each rank sent became
     SparseExchange::Buffers outgoing_, incoming_;

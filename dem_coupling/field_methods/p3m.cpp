@@ -88,11 +88,11 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
         if (result.excludedCount > 0 && settings_.outsideMesh == OutsideMesh::error) {
             refuseOutside("p3m", locator_, particles, result.excludedCount, communicator_);
         }
-        particlesOnMesh_.distribute(locator_, particles.position, particles.charge, halo_, radius_ + reachOfCells_, sources_);
+        particlesOnMesh_.distribute(locator_, particles, halo_, radius_ + reachOfCells_, sources_);
     }
     atTargets_.setZero(sources_.targets, valuesPerTarget);
     depositAndSolve();
-    sumNear(particles, result);
+    sumNear(result);
     gatherAtTargets();
     {
         const PhaseTimer timer(times_, Phase::exchange);
@@ -176,7 +176,7 @@ void P3m::setBoundaryValues()
     }
 }
 
-void P3m::sumNear(const DemParticles& particles, ParticleField& result)
+void P3m::sumNear(ParticleField& result)
 {
     std::string failure;
     sums_.pairs = 0;
@@ -226,7 +226,12 @@ void P3m::sumNear(const DemParticles& particles, ParticleField& result)
             atTargets_.col(3) = sums_.potential;
         }
     }
-    result.pairs = sumPairs(sums_.pairs, failure, particles, points_.position, communicator_);
+    if (!failure.empty()) {
+        // The charges that share a position are here, whoever owns the particles.
+        inCells_.tag = particlesOnMesh_.tags();
+        inCells_.position = sources_.position.topRows(sources_.targets);
+    }
+    result.pairs = sumPairs(sums_.pairs, failure, inCells_, points_.position, communicator_);
 }
 
 /// Short-range parts of charges near baffles and re-entrant edges, for the targets that can be walked to from them.

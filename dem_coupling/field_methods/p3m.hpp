@@ -30,7 +30,7 @@ public:
 private:
     void depositAndSolve();
     void setBoundaryValues();
-    void sumNear(const DemParticles& particles, ParticleField& result);
+    void sumNear(ParticleField& result);
     void addHiddenPairs();
     void gatherAtTargets();
     Vector3 ownCloudGradient(Index target);
@@ -58,6 +58,7 @@ private:
     CloudSources sources_;
     ChargedPoints points_;
     std::vector<bool> hides_;
+    DemParticles inCells_;  ///< the targets, for messages
     PairSumResult sums_;
     Scalars cellCharge_, cellPotential_, boundaryValue_, scratchCells_, scratchFaces_;
     /// Of the targets: field (3), potential, own response (3).
