@@ -53,9 +53,10 @@ public:
         throw std::logic_error("this mesh has no correction");
     }
 
-    /// Asks for a fourth-order operator in solve(cellCharge, boundaryValue) where boundary values are all zero. True when
-    /// the mesh has one (the direct solve of a uniform grounded box); no deferred correction is needed then. Collective.
-    virtual bool useFourthOrderOperator() { return false; }
+    /// Asks for the operator of matchedSymbol() (electrostatics/p3m/lattice_operator.hpp) in place of the finite-volume one
+    /// in solve(cellCharge, boundaryValue), whose boundary values are all zero from then on. True when the mesh has one: the
+    /// direct solve of a uniform grounded box; no deferred correction is needed then. Collective.
+    virtual bool useMatchedOperator() { return false; }
 
     /// One line for logs and tables: cells, solver, tolerance.
     virtual std::string description() const { return {}; }

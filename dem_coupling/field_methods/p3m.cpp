@@ -59,7 +59,7 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
             communicator),
       surroundings_(halo_.mesh(), radius_),
       deposit_(halo_.mesh(), surroundings_, radius_, exponent_),
-      gather_(halo_.mesh(), static_cast<int>(settings.p3m.gather)),
+      gather_(halo_.mesh(), surroundings_, static_cast<int>(settings.p3m.gather)),
       near_(radius_, settings.permittivity),
       cloud_(radius_, exponent_)
 {
@@ -71,10 +71,8 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
     }
     MPI_Allreduce(MPI_IN_PLACE, special, 2, MPI_INT, MPI_MAX, communicator);
     faceValues_ = special[0] != 0;
-    correct_ = settings.p3m.deferredCorrection;
-    if (correct_ && !faceValues_ && special[1] == 0 && mesh.useFourthOrderOperator()) {
-        correct_ = false;
-    }
+    const bool matched = !faceValues_ && special[1] == 0 && mesh.useMatchedOperator();
+    correct_ = settings.p3m.deferredCorrection && !matched;
 }
 
 double P3m::partnerCutoff() const { return std::numeric_limits<double>::infinity(); }
@@ -286,8 +284,11 @@ void P3m::gatherAtTargets()
             fitted = cell;
         }
         const Vector3 place = sources_.position.row(target).matrix().transpose();
-        atTargets_.row(target).head(3) -= polynomial.gradient(place).transpose().array();
-        atTargets_(target, 3) += polynomial.at(place) - ownPotential * sources_.charge[target];
+        double value = 0;
+        Vector3 gradient;
+        polynomial.evaluate(place, value, gradient);
+        atTargets_.row(target).head(3) -= gradient.transpose().array();
+        atTargets_(target, 3) += value - ownPotential * sources_.charge[target];
         if (settings_.p3m.selfTerm) {
             atTargets_.row(target).head(3) += ownCloudGradient(target).transpose().array();
         }
@@ -295,29 +296,50 @@ void P3m::gatherAtTargets()
     }
 }
 
-/// Gradient [V/m] at a target of the polynomial through the potential of its own cloud at the stencil, which should be zero.
+/// What the polynomial makes at a target of the potential of its own cloud and of its images' clouds at the stencil, less
+/// the true gradient there, that of the images [V/m].
 Vector3 P3m::ownCloudGradient(Index target)
 {
     const LocalMesh& mesh = halo_.mesh();
-    const Index cell = sources_.cell[static_cast<std::size_t>(target)];
+    const auto t = static_cast<std::size_t>(target);
+    const Index cell = sources_.cell[t];
     const Vector3 place = sources_.position.row(target).matrix().transpose();
     const double scale = sources_.charge[target] / (4.0 * pi * settings_.permittivity);
+    const auto first = static_cast<std::size_t>(sources_.firstImage[t]);
+    const auto last = static_cast<std::size_t>(sources_.firstImage[t + 1]);
+    const auto potentialAt = [&](const Vector3& x) {
+        double sum = cloud_.potential((x - place).norm());
+        for (std::size_t n = first; n < last; ++n) {
+            sum += sources_.images[n].sign * cloud_.potential((x - sources_.images[n].position).norm());
+        }
+        return scale * sum;
+    };
+    const auto fieldAt = [&](const Vector3& x) {
+        Vector3 sum = cloud_.fieldCoefficient((x - place).norm()) * (x - place);
+        for (std::size_t n = first; n < last; ++n) {
+            const Vector3 r = x - sources_.images[n].position;
+            sum += sources_.images[n].sign * cloud_.fieldCoefficient(r.norm()) * r;
+        }
+        return Vector3(scale * sum);
+    };
     scratchCells_.resize(mesh.cells());
     scratchFaces_.resize(mesh.boundary.size());
-    scratchCells_[cell] = scale * cloud_.potential((mesh.centreOf(cell) - place).norm());
-    for (const std::int32_t other : gather_.stencilCells(cell)) {
-        scratchCells_[other] = scale * cloud_.potential((mesh.centreOf(other) - place).norm());
+    scratchCells_[cell] = potentialAt(mesh.centreOf(cell));
+    for (const auto& point : gather_.stencilCells(cell)) {
+        scratchCells_[point.cell] = potentialAt(mesh.centreOf(point.cell));
     }
     for (const std::int32_t face : gather_.stencilFaces(cell)) {
-        const Vector3 r = mesh.boundary.centre.row(face).matrix().transpose() - place;
+        const Vector3 x = mesh.boundary.centre.row(face).matrix().transpose();
         const bool conductor = mesh.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
-        scratchFaces_[face] = conductor ? scale * cloud_.potential(r.norm())
-                                        : -scale * cloud_.fieldCoefficient(r.norm())
-                                              * r.dot(mesh.boundary.normal.row(face).matrix().transpose());
+        scratchFaces_[face] =
+            conductor ? potentialAt(x) : -fieldAt(x).dot(mesh.boundary.normal.row(face).matrix().transpose());
     }
     PolynomialGather::Polynomial polynomial;
     gather_.fit(cell, scratchCells_, scratchFaces_, polynomial);
-    return polynomial.gradient(place);
+    double value = 0;
+    Vector3 gradient;
+    polynomial.evaluate(place, value, gradient);
+    return gradient + fieldAt(place);
 }
 
 /// Coulomb field of a target's own images: what p3m knows of its own response.

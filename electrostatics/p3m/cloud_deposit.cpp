@@ -69,6 +69,18 @@ HIM_CLONES double addWeights2(const Cloud& c, Index blocks, const double* x, con
     return addWeights<2>(c, blocks, x, y, z, volume, cloud);
 }
 
+/// Copies whole blocks: what a block holds behind its range is overwritten by the next one.
+HIM_CLONES void packRanges(const RowRange* range, const RowRange* last, const double* from, double* to)
+{
+    for (; range != last; ++range) {
+        const Index length = range->end - range->begin;
+        for (Index n = 0; n < length; n += blockSize) {
+            store(to + n, load(from + range->begin + n));
+        }
+        to += length;
+    }
+}
+
 }  // namespace
 
 CloudDeposit::CloudDeposit(const LocalMesh& mesh, SurroundingsTable& table, double radius, int exponent)
@@ -78,31 +90,30 @@ CloudDeposit::CloudDeposit(const LocalMesh& mesh, SurroundingsTable& table, doub
       exponent_(exponent),
       amplitude_((exponent == 1 ? 15.0 / 8.0 : 105.0 / 32.0) / (pi * radius * radius * radius))
 {
+    const auto take = [&](Scalars& to, const auto& from) {
+        to.setZero(mesh.cells() + blockSize);
+        to.head(mesh.cells()) = from;
+    };
+    take(cellX_, mesh.centre.col(0));
+    take(cellY_, mesh.centre.col(1));
+    take(cellZ_, mesh.centre.col(2));
+    take(cellVolume_, mesh.volume);
 }
 
-void CloudDeposit::loadCells(Index host)
+/// The cells of all ranges, packed without gaps, so that many charges of one cell are summed in whole blocks.
+void CloudDeposit::loadCells(const Surroundings& around)
 {
-    const Surroundings& around = table_.of(host);
-    Index count = 0;
-    for (const RowRange& range : around.cells) {
-        count += range.end - range.begin;
-    }
-    const Index padded = (count + blockSize - 1) / blockSize * blockSize;
-    if (x_.size() < padded) {
+    const Index padded = (around.count + blockSize - 1) / blockSize * blockSize;
+    if (x_.size() < padded + blockSize) {
         for (Scalars* values : {&x_, &y_, &z_, &volume_, &cloud_, &charge_}) {
-            values->setZero(2 * padded);
+            values->setZero(2 * padded + blockSize);
         }
     }
-    Index to = 0;
-    for (const RowRange& range : around.cells) {
-        const Index length = range.end - range.begin;
-        x_.segment(to, length) = mesh_.centre.col(0).segment(range.begin, length);
-        y_.segment(to, length) = mesh_.centre.col(1).segment(range.begin, length);
-        z_.segment(to, length) = mesh_.centre.col(2).segment(range.begin, length);
-        volume_.segment(to, length) = mesh_.volume.segment(range.begin, length);
-        to += length;
-    }
-    volume_.segment(count, padded - count).setZero();
+    packRanges(around.cells.data(), around.cells.data() + around.cells.size(), cellX_.data(), x_.data());
+    packRanges(around.cells.data(), around.cells.data() + around.cells.size(), cellY_.data(), y_.data());
+    packRanges(around.cells.data(), around.cells.data() + around.cells.size(), cellZ_.data(), z_.data());
+    packRanges(around.cells.data(), around.cells.data() + around.cells.size(), cellVolume_.data(), volume_.data());
+    volume_.segment(around.count, padded - around.count).setZero();
     charge_.head(padded).setZero();
     loaded_ = padded;
 }
@@ -132,18 +143,17 @@ void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
     while (row < sources.size()) {
         const std::int32_t host = sources.cell[static_cast<std::size_t>(row)];
         const Surroundings& around = table_.of(host);
-        loadCells(host);
+        loadCells(around);
         for (; row < sources.size() && sources.cell[static_cast<std::size_t>(row)] == host; ++row) {
             addCloud(sources, row, !around.wallWithoutImage);
         }
-        Index from = 0;
+        const double* charge = charge_.data();
         for (const RowRange& range : around.cells) {
-            const Index length = range.end - range.begin;
-            const Index own = std::min(range.end, mesh_.ownCells) - range.begin;
-            if (own > 0) {
-                cellCharge.segment(range.begin, own) += charge_.segment(from, own);
+            const Index own = std::min(range.end, mesh_.ownCells);
+            for (Index cell = range.begin; cell < own; ++cell) {
+                cellCharge[cell] += charge[cell - range.begin];
             }
-            from += length;
+            charge += range.end - range.begin;
         }
     }
 }

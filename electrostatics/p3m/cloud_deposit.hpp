@@ -20,7 +20,7 @@ public:
     void deposit(const CloudSources& sources, Scalars& cellCharge);
 
 private:
-    void loadCells(Index host);
+    void loadCells(const Surroundings& around);
     void addCloud(const CloudSources& sources, Index row, bool normalise);
 
     const LocalMesh& mesh_;
@@ -28,8 +28,10 @@ private:
     double radius_;
     int exponent_;
     double amplitude_;  ///< c [1/m3]
-    Index loaded_ = 0;  ///< cells around the present host
-    Scalars x_, y_, z_, volume_, weight_, cloud_, charge_;
+    Scalars cellX_, cellY_, cellZ_, cellVolume_;  ///< of all cells of the local mesh, padded
+    Index loaded_ = 0;                            ///< cells around the present host, in whole blocks
+    Scalars x_, y_, z_, volume_;                  ///< of these cells, one after the other
+    Scalars cloud_, charge_;                      ///< at these cells: weights of one charge, charge of all in the host
 };
 
 }  // namespace him

@@ -124,12 +124,18 @@ HIM_CLONES void accumulate(const double* matrix, int padded, const double* value
 
 }  // namespace
 
-PolynomialGather::PolynomialGather(const LocalMesh& mesh, int order)
+PolynomialGather::PolynomialGather(const LocalMesh& mesh, const SurroundingsTable& walls, int order)
     : mesh_(mesh),
+      walls_(walls),
       order_(order),
       stencils_(static_cast<std::size_t>(mesh.ownCells)),
-      mark_(static_cast<std::size_t>(mesh.cells()), 0)
+      firstNode_(static_cast<std::size_t>(mesh.cells()), -1)
 {
+}
+
+bool PolynomialGather::mirrors(Index face) const
+{
+    return walls_.mirrorsExactly(face) && mesh_.boundary.value[face] == 0;
 }
 
 const PolynomialGather::Stencil& PolynomialGather::stencilOf(Index cell)
@@ -141,31 +147,79 @@ const PolynomialGather::Stencil& PolynomialGather::stencilOf(Index cell)
     return stencil;
 }
 
-/// Whole layers of cells until there are enough points, boundary faces included. The cell itself is no point.
+/// Whole layers of cells until there are enough points, boundary faces included. The cell itself is no point. A layer goes
+/// through a face to the cell behind it, or through a mirroring wall to the same cell on the other side.
 void PolynomialGather::collect(Index cell, Stencil& stencil)
 {
-    ++stamp_;
-    mark_[static_cast<std::size_t>(cell)] = stamp_;
-    std::vector<std::int32_t> layer{static_cast<std::int32_t>(cell)};
-    const auto points = [&] { return static_cast<int>(stencil.cells.size() + stencil.faces.size()); };
-    for (const std::int32_t face : mesh_.facesOfCell[cell]) {
-        stencil.faces.push_back(face);
+    nodes_.clear();
+    nextNode_.clear();
+    const auto add = [&](const Node& node) {
+        std::int32_t& first = firstNode_[static_cast<std::size_t>(node.cell)];
+        for (std::int32_t n = first; n >= 0; n = nextNode_[static_cast<std::size_t>(n)]) {
+            if (nodes_[static_cast<std::size_t>(n)].planes == node.planes) {
+                return;
+            }
+        }
+        nextNode_.push_back(first);
+        first = static_cast<std::int32_t>(nodes_.size());
+        nodes_.push_back(node);
+    };
+    const auto placeOf = [&](std::int32_t other, const std::array<std::int32_t, 3>& planes) {
+        Vector3 place = mesh_.centreOf(other);
+        for (const std::int32_t plane : planes) {
+            if (plane >= 0) {
+                place = walls_.planes()[static_cast<std::size_t>(plane)].mirror(place);
+            }
+        }
+        return place;
+    };
+    constexpr std::array<std::int32_t, 3> unmirrored{-1, -1, -1};
+    add({static_cast<std::int32_t>(cell), 1, unmirrored, mesh_.centreOf(cell)});
+    std::size_t begin = 0;
+    std::size_t faces = 0;
+    for (int layer = 1; layer <= layers(order_) && nodes_.size() - 1 + faces < static_cast<std::size_t>(fewestPoints(order_));
+         ++layer) {
+        const std::size_t end = nodes_.size();
+        for (; begin < end; ++begin) {
+            const Node here = nodes_[begin];
+            for (const std::int32_t neighbour : mesh_.neighbours[here.cell]) {
+                add({neighbour, here.sign, here.planes, placeOf(neighbour, here.planes)});
+            }
+            for (const std::int32_t face : mesh_.facesOfCell[here.cell]) {
+                if (!mirrors(face)) {
+                    faces += here.planes == unmirrored;
+                    continue;
+                }
+                // Through a plane and back again is no mirroring at all.
+                const auto plane = static_cast<std::int32_t>(walls_.planeOf(face));
+                std::array<std::int32_t, 3> planes = here.planes;
+                auto at = std::find(planes.begin(), planes.end(), plane);
+                if (at != planes.end()) {
+                    *at = -1;
+                } else if (planes[0] < 0) {
+                    planes[0] = plane;
+                } else {
+                    continue;  // three planes already, or the far wall of a channel narrower than the stencil
+                }
+                std::sort(planes.begin(), planes.end());
+                const bool conductor = walls_.planes()[static_cast<std::size_t>(plane)].sign < 0;
+                add({here.cell, conductor ? -here.sign : here.sign, planes, placeOf(here.cell, planes)});
+            }
+        }
     }
-    for (int n = 1; n <= layers(order_) && points() < fewestPoints(order_); ++n) {
-        std::vector<std::int32_t> next;
-        for (const std::int32_t here : layer) {
-            for (const std::int32_t neighbour : mesh_.neighbours[here]) {
-                if (mark_[static_cast<std::size_t>(neighbour)] != stamp_) {
-                    mark_[static_cast<std::size_t>(neighbour)] = stamp_;
-                    next.push_back(neighbour);
-                    stencil.cells.push_back(neighbour);
-                    for (const std::int32_t face : mesh_.facesOfCell[neighbour]) {
-                        stencil.faces.push_back(face);
-                    }
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        const Node& node = nodes_[n];
+        firstNode_[static_cast<std::size_t>(node.cell)] = -1;
+        if (n > 0) {
+            stencil.cells.push_back({node.cell, node.sign});
+        }
+        if (node.planes == unmirrored) {
+            for (const std::int32_t face : mesh_.facesOfCell[node.cell]) {
+                if (!mirrors(face)) {
+                    stencil.faces.push_back(face);
                 }
             }
         }
-        layer.swap(next);
     }
 }
 
@@ -203,31 +257,36 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
     const double h = cellSize(mesh_, cell);
     const double hRounded = std::exp(std::round(std::log(h) / rounding) * rounding);
 
-    struct Point {
-        std::array<std::int64_t, 4> key;  // rounded place, kind
+    struct FitPoint {
+        std::array<std::int64_t, 4> key;  // kind, rounded place
         std::int32_t index;
+        std::int32_t sign;
     };
-    std::vector<Point> points;
+    std::vector<FitPoint> points;
     const auto rounded = [&](const Vector3& x, int axis) { return std::llround((x[axis] - centre[axis]) / (h * rounding)); };
-    for (const std::int32_t other : stencil.cells) {
-        const Vector3 x = mesh_.centreOf(other);
-        points.push_back({{0, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, other});
+    for (std::size_t n = 0; n < stencil.cells.size(); ++n) {
+        const Vector3& x = nodes_[n + 1].place;
+        points.push_back({{0, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, stencil.cells[n].cell, stencil.cells[n].sign});
     }
     for (const std::int32_t face : stencil.faces) {
         const Vector3 x = mesh_.boundary.centre.row(face).matrix().transpose();
         const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
-        points.push_back({{conductor ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face});
+        points.push_back({{conductor ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face, 1});
     }
-    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.key < b.key; });
+    std::sort(points.begin(), points.end(), [](const FitPoint& a, const FitPoint& b) { return a.key < b.key; });
     stencil.cells.clear();
     stencil.faces.clear();
     std::vector<std::int64_t> key{std::llround(std::log(h) / rounding)};
     for (int i = 0; i < 9; ++i) {
         key.push_back(std::llround(scale(i) * h / rounding));
     }
-    for (const Point& point : points) {
+    for (const FitPoint& point : points) {
         key.insert(key.end(), point.key.begin(), point.key.end());
-        (point.key[0] == 0 ? stencil.cells : stencil.faces).push_back(point.index);
+        if (point.key[0] == 0) {
+            stencil.cells.push_back({point.index, point.sign});
+        } else {
+            stencil.faces.push_back(point.index);
+        }
         if (point.key[0] == 2) {
             for (int axis = 0; axis < 3; ++axis) {
                 key.push_back(std::llround(mesh_.boundary.normal(point.index, axis) / rounding));
@@ -253,7 +312,7 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
         Eigen::VectorXd weights(rows);
         std::array<double, mostCoefficients> row{};
         for (Index n = 0; n < rows; ++n) {
-            const Point& point = points[static_cast<std::size_t>(n)];
+            const FitPoint& point = points[static_cast<std::size_t>(n)];
             const Vector3 step = Vector3(static_cast<double>(point.key[1]), static_cast<double>(point.key[2]),
                                          static_cast<double>(point.key[3]))
                                  * (h * rounding);
@@ -327,17 +386,20 @@ void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars&
     polynomial.value = cellValues[cell];
     polynomial.order = fit.order;
     polynomial.coefficients.fill(0.0);
-    thread_local std::vector<double> values;
-    values.clear();
-    for (const std::int32_t other : stencil.cells) {
-        values.push_back(cellValues[other] - polynomial.value);
+    const auto points = static_cast<Index>(stencil.cells.size() + stencil.faces.size());
+    if (values_.size() < points) {
+        values_.resize(2 * points);
     }
-    const double h = cellSize(mesh_, cell);
+    double* value = values_.data();
+    for (const Point& point : stencil.cells) {
+        *value++ = point.sign * cellValues[point.cell] - polynomial.value;
+    }
+    const double h = stencil.faces.empty() ? 0 : cellSize(mesh_, cell);
     for (const std::int32_t face : stencil.faces) {
         const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
-        values.push_back(conductor ? faceValues[face] - polynomial.value : h * faceValues[face]);
+        *value++ = conductor ? faceValues[face] - polynomial.value : h * faceValues[face];
     }
-    accumulate(fit.matrix.data(), fit.padded, values.data(), static_cast<int>(values.size()), polynomial.coefficients.data());
+    accumulate(fit.matrix.data(), fit.padded, values_.data(), static_cast<int>(points), polynomial.coefficients.data());
 }
 
 double PolynomialGather::laplacian(Index cell, const Scalars& cellValues, const Scalars& faceValues)
@@ -346,10 +408,10 @@ double PolynomialGather::laplacian(Index cell, const Scalars& cellValues, const 
     const double value = cellValues[cell];
     const double* weight = stencil.fit->laplacian.data();
     double sum = 0;
-    for (const std::int32_t other : stencil.cells) {
-        sum += *weight++ * (cellValues[other] - value);
+    for (const Point& point : stencil.cells) {
+        sum += *weight++ * (point.sign * cellValues[point.cell] - value);
     }
-    const double h = cellSize(mesh_, cell);
+    const double h = stencil.faces.empty() ? 0 : cellSize(mesh_, cell);
     for (const std::int32_t face : stencil.faces) {
         const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
         sum += *weight++ * (conductor ? faceValues[face] - value : h * faceValues[face]);
@@ -357,46 +419,42 @@ double PolynomialGather::laplacian(Index cell, const Scalars& cellValues, const 
     return sum;
 }
 
-double PolynomialGather::Polynomial::at(const Vector3& x) const
-{
-    const Vector3 xi = scale * (x - centre);
-    std::array<double, mostCoefficients> basis{};
-    monomials(xi, order, basis.data());
-    double sum = value;
-    for (int k = 0; k < coefficientsOf(order); ++k) {
-        sum += coefficients[static_cast<std::size_t>(k)] * basis[static_cast<std::size_t>(k)];
-    }
-    return sum;
-}
-
-/// Written out, because it is called once per particle: Horner's scheme in x, y, z of the polynomial's derivatives.
-Vector3 PolynomialGather::Polynomial::gradient(const Vector3& place) const
+/// Written out, because it is called once per particle. The parts of equal degree d give their value by Euler's theorem,
+/// p_d = xi . grad p_d / d.
+void PolynomialGather::Polynomial::evaluate(const Vector3& place, double& valueThere, Vector3& gradient) const
 {
     const Vector3 xi = scale * (place - centre);
     const double x = xi[0], y = xi[1], z = xi[2];
     const double* c = coefficients.data();
     Vector3 g(c[0], c[1], c[2]);
+    valueThere = value + xi.dot(g);
+    const auto add = [&](int degree, const Vector3& part) {
+        g += part;
+        valueThere += xi.dot(part) / degree;
+    };
     if (order >= 2) {
-        g += Vector3(2 * c[3] * x + c[4] * y + c[5] * z, c[4] * x + 2 * c[6] * y + c[7] * z, c[5] * x + c[7] * y + 2 * c[8] * z);
+        add(2, Vector3(2 * c[3] * x + c[4] * y + c[5] * z, c[4] * x + 2 * c[6] * y + c[7] * z,
+                       c[5] * x + c[7] * y + 2 * c[8] * z));
     }
     if (order >= 3) {
         // 9 xxx, 10 xxy, 11 xxz, 12 xyy, 13 xyz, 14 xzz, 15 yyy, 16 yyz, 17 yzz, 18 zzz
         const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
-        g += Vector3(3 * c[9] * xx + 2 * c[10] * xy + 2 * c[11] * xz + c[12] * yy + c[13] * yz + c[14] * zz,
-                     c[10] * xx + 2 * c[12] * xy + c[13] * xz + 3 * c[15] * yy + 2 * c[16] * yz + c[17] * zz,
-                     c[11] * xx + c[13] * xy + 2 * c[14] * xz + c[16] * yy + 2 * c[17] * yz + 3 * c[18] * zz);
+        add(3, Vector3(3 * c[9] * xx + 2 * c[10] * xy + 2 * c[11] * xz + c[12] * yy + c[13] * yz + c[14] * zz,
+                       c[10] * xx + 2 * c[12] * xy + c[13] * xz + 3 * c[15] * yy + 2 * c[16] * yz + c[17] * zz,
+                       c[11] * xx + c[13] * xy + 2 * c[14] * xz + c[16] * yy + 2 * c[17] * yz + 3 * c[18] * zz));
         if (order >= 4) {
             // 19 xxxx, 20 xxxy, 21 xxxz, 22 xxyy, 23 xxyz, 24 xxzz, 25 xyyy, 26 xyyz, 27 xyzz, 28 xzzz,
             // 29 yyyy, 30 yyyz, 31 yyzz, 32 yzzz, 33 zzzz
-            g += Vector3(xx * (4 * c[19] * x + 3 * c[20] * y + 3 * c[21] * z) + 2 * x * (c[22] * yy + c[23] * yz + c[24] * zz)
-                             + yy * (c[25] * y + c[26] * z) + zz * (c[27] * y + c[28] * z),
-                         xx * (c[20] * x + 2 * c[22] * y + c[23] * z) + x * (3 * c[25] * yy + 2 * c[26] * yz + c[27] * zz)
-                             + yy * (4 * c[29] * y + 3 * c[30] * z) + zz * (2 * c[31] * y + c[32] * z),
-                         xx * (c[21] * x + c[23] * y + 2 * c[24] * z) + x * (c[26] * yy + 2 * c[27] * yz + 3 * c[28] * zz)
-                             + yy * (c[30] * y + 2 * c[31] * z) + zz * (3 * c[32] * y + 4 * c[33] * z));
+            add(4, Vector3(xx * (4 * c[19] * x + 3 * c[20] * y + 3 * c[21] * z)
+                               + 2 * x * (c[22] * yy + c[23] * yz + c[24] * zz) + yy * (c[25] * y + c[26] * z)
+                               + zz * (c[27] * y + c[28] * z),
+                           xx * (c[20] * x + 2 * c[22] * y + c[23] * z) + x * (3 * c[25] * yy + 2 * c[26] * yz + c[27] * zz)
+                               + yy * (4 * c[29] * y + 3 * c[30] * z) + zz * (2 * c[31] * y + c[32] * z),
+                           xx * (c[21] * x + c[23] * y + 2 * c[24] * z) + x * (c[26] * yy + 2 * c[27] * yz + 3 * c[28] * zz)
+                               + yy * (c[30] * y + 2 * c[31] * z) + zz * (3 * c[32] * y + 4 * c[33] * z)));
         }
     }
-    return scale.transpose() * g;
+    gradient = scale.transpose() * g;
 }
 
 }  // namespace him

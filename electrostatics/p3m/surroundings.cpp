@@ -88,38 +88,43 @@ void SurroundingsTable::findPlanes()
 
 void SurroundingsTable::findExactFaces()
 {
-    // Images of all charges cancel in a face when every other plane that they can reach is perpendicular to its own and to
-    // all others of these: then all image sets are symmetric about it.
+    // Images of all charges cancel in a face when the planes that charges in its reach are mirrored in are perpendicular to
+    // its own and to each other: then all image sets are symmetric about it. Planes farther apart than 2 R never mirror the
+    // same charge.
     const BoundaryFaces& faces = mesh_.boundary;
     exact_.assign(static_cast<std::size_t>(faces.size()), false);
-    std::vector<std::vector<std::int32_t>> facesOfPlane(planes_.size());
-    for (Index face = 0; face < faces.size(); ++face) {
-        facesOfPlane[static_cast<std::size_t>(planeOfFace_[static_cast<std::size_t>(face)])].push_back(static_cast<std::int32_t>(face));
-    }
     std::vector<Box> boxes(planes_.size());
-    for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-        for (const std::int32_t face : facesOfPlane[plane]) {
-            const Vector3 centre = faces.centre.row(face).matrix().transpose();
-            boxes[plane].extend(centre - Vector3::Constant(faces.radius[face]));
-            boxes[plane].extend(centre + Vector3::Constant(faces.radius[face]));
-        }
+    for (Index face = 0; face < faces.size(); ++face) {
+        const Vector3 centre = faces.centre.row(face).matrix().transpose();
+        const Vector3 normal = faces.normal.row(face).matrix().transpose();
+        const Vector3 extent = faces.radius[face] * (1 - normal.array().square()).max(0).sqrt().matrix();
+        Box& box = boxes[static_cast<std::size_t>(planeOfFace_[static_cast<std::size_t>(face)])];
+        box.extend(centre - extent);
+        box.extend(centre + extent);
     }
+    const auto gapTo = [&](std::size_t plane, const Vector3& point) {
+        return (point - point.cwiseMax(boxes[plane].lower).cwiseMin(boxes[plane].upper)).norm();
+    };
+    const auto gap = [&](std::size_t a, std::size_t b) {
+        return (boxes[a].lower - boxes[b].upper).cwiseMax(boxes[b].lower - boxes[a].upper).cwiseMax(0).norm();
+    };
+    const auto square = [&](std::size_t a, std::size_t b) {
+        return std::abs(planes_[a].normal.dot(planes_[b].normal)) < perpendicular;
+    };
+    const double reach = 2 * radius_ * (1 - 1e-9);
+    std::vector<std::size_t> near;
     for (Index face = 0; face < faces.size(); ++face) {
         const auto own = static_cast<std::size_t>(planeOfFace_[static_cast<std::size_t>(face)]);
-        if (!outerFree_[own]) {
-            continue;
-        }
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
-        std::vector<std::size_t> near;
-        bool exact = true;
+        near.clear();
+        bool exact = outerFree_[own];
         for (std::size_t plane = 0; plane < planes_.size() && exact; ++plane) {
-            const Vector3 gap = centre - centre.cwiseMax(boxes[plane].lower).cwiseMin(boxes[plane].upper);
-            if (plane == own || gap.norm() > 2 * radius_) {
+            if (plane == own || gapTo(plane, centre) >= reach) {
                 continue;
             }
-            exact = outerFree_[plane] && std::abs(planes_[plane].normal.dot(planes_[own].normal)) < perpendicular;
+            exact = outerFree_[plane] && square(plane, own);
             for (const std::size_t other : near) {
-                exact = exact && std::abs(planes_[plane].normal.dot(planes_[other].normal)) < perpendicular;
+                exact = exact && (square(plane, other) || gap(plane, other) >= reach);
             }
             near.push_back(plane);
         }
@@ -172,11 +177,7 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
     auto around = std::make_unique<Surroundings>();
     const double reach = radius_ + mesh_.radius[cell];
     const Vector3 centre = mesh_.centreOf(cell);
-    if (!convex_) {
-        walk(cell, 2 * reach);
-    } else {
-        walk(cell, reach);
-    }
+    walk(cell, convex_ ? reach : 2 * reach);
 
     std::vector<std::int32_t> wallPlanes;
     const BoundaryFaces& faces = mesh_.boundary;
@@ -202,14 +203,20 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
         }
     }
 
-    if (!convex_) {
+    bool freeWalls = true;
+    for (const std::int32_t n : wallPlanes) {
+        freeWalls = freeWalls && outerFree_[static_cast<std::size_t>(n)];
+    }
+    if (!freeWalls) {
         // Hidden is what lies in the cloud of some point of the cell but cannot be walked to.
         walk(cell, reach);
-        std::vector<std::int32_t> walked = reached_;
         for (Index other = 0; other < mesh_.cells() && !around->hides; ++other) {
             around->hides = (mesh_.centreOf(other) - centre).norm() <= reach + mesh_.radius[other]
                             && mark_[static_cast<std::size_t>(other)] != stamp_;
         }
+    }
+    if (!convex_ && freeWalls) {
+        walk(cell, reach);
     }
     for (const std::int32_t other : reached_) {
         if (!around->cells.empty() && around->cells.back().end == other) {
@@ -219,6 +226,7 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
         }
     }
     around->cells.shrink_to_fit();
+    around->count = static_cast<Index>(reached_.size());
     return around;
 }
 

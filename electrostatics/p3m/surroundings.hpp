@@ -25,6 +25,7 @@ struct WallPlane {
 /// lies behind a baffle does not feel it; the potential of the mesh carries the rest.
 struct Surroundings {
     std::vector<RowRange> cells;              ///< runs of consecutive cell numbers
+    Index count = 0;                          ///< cells in all of these
     std::vector<std::int32_t> planes;         ///< planes in which its charges may be mirrored
     std::vector<std::int32_t> unmirrored;     ///< own boundary faces whose value the images do not make zero
     bool wallWithoutImage = false;            ///< some boundary face in reach lies in none of the planes
@@ -48,6 +49,8 @@ public:
         return *entry;
     }
     const std::vector<WallPlane>& planes() const { return planes_; }
+    /// Plane of a boundary face, an index into planes().
+    Index planeOf(Index face) const { return planeOfFace_[static_cast<std::size_t>(face)]; }
     /// Whether the images of every charge make the value of this boundary face exactly that of the case.
     bool mirrorsExactly(Index face) const { return exact_[static_cast<std::size_t>(face)]; }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/box_mesh.hpp"
 
+#include "electrostatics/p3m/lattice_operator.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
@@ -202,17 +204,12 @@ Scalars BoxMesh::gathered(const Scalars& ownValues) const
     return all;
 }
 
-void BoxMesh::solveWhole(Scalars& values, Operator kind) const
+void BoxMesh::solveWhole(Scalars& values, bool matched) const
 {
     const auto eigenvalue = [&](std::size_t axis, Index n) {
         const double h = size_[static_cast<Index>(axis)];
         const double second = eigenvalues_[axis][n];
-        if (kind == Operator::second) {
-            return second;
-        }
-        const double cosine = std::max(-1.0, 1 - 0.5 * second * h * h);
-        const double theta = std::acos(cosine);
-        return (kind == Operator::fourth ? (30 - 32 * cosine + 2 * std::cos(2 * theta)) / 12 : theta * theta) / (h * h);
+        return matched ? matchedSymbol(std::acos(std::max(-1.0, 1 - 0.5 * second * h * h))) / (h * h) : second;
     };
     transform(values, false);
     Index n = 0;
@@ -230,7 +227,7 @@ void BoxMesh::solve(const Scalars& cellCharge)
 {
     potential_ = gathered(cellCharge);
     chargeOnMesh_ = potential_.sum();
-    solveWhole(potential_, Operator::second);
+    solveWhole(potential_, false);
 }
 
 void BoxMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
@@ -243,20 +240,20 @@ void BoxMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
     }
     potential_ = gathered(source);
     chargeOnMesh_ = gathered(cellCharge).sum();
-    solveWhole(potential_, operator_);
+    solveWhole(potential_, matched_);
 }
 
 void BoxMesh::correct(const Scalars& residual)
 {
     Scalars change = gathered(residual);
-    solveWhole(change, Operator::second);
+    solveWhole(change, false);
     potential_ += change;
 }
 
-bool BoxMesh::useFourthOrderOperator()
+bool BoxMesh::useMatchedOperator()
 {
-    operator_ = accurateOperator;
-    return operator_ != Operator::second;
+    matched_ = direct && !periodic_[0] && !periodic_[1] && !periodic_[2];
+    return matched_;
 }
 
 Vector3 BoxMesh::electricField(Index cell) const

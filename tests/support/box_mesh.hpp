@@ -29,13 +29,11 @@ public:
     const MeshArrays& arrays() const override { return arrays_; }
     void solve(const Scalars& cellCharge, const Scalars& boundaryValue) override;
     void correct(const Scalars& residual) override;
-    bool useFourthOrderOperator() override;
+    bool useMatchedOperator() override;
 
-    /// How -d2/dx2 acts on a mode that changes by the phase theta from cell to cell: of the second order (the finite-volume
-    /// operator), of the fourth order with odd reflection at the walls, or exactly.
-    enum class Operator { second, fourth, spectral };
-    /// What useFourthOrderOperator() switches to; `second` refuses it.
-    Operator accurateOperator = Operator::second;
+    /// Whether this mesh solves directly, as a uniform grounded box, and so has the matched operator. Off, it stands for a
+    /// mesh of any shape.
+    bool direct = true;
 
     double cellVolume() const { return size_.prod(); }
     /// Sum of what the last solve() was given, over all ranks [C].
@@ -51,7 +49,7 @@ private:
     void transform(Scalars& values, bool back) const;
     void makeArrays();
     /// Potential of all cells for a charge of all cells [C] under walls at 0 V.
-    void solveWhole(Scalars& values, Operator kind) const;
+    void solveWhole(Scalars& values, bool matched) const;
     Scalars gathered(const Scalars& ownValues) const;
 
     Box box_;
@@ -66,7 +64,7 @@ private:
     Scalars potential_;                             ///< [V], all cells of all ranks
     double chargeOnMesh_ = 0;
     MeshArrays arrays_;
-    Operator operator_ = Operator::second;
+    bool matched_ = false;
 };
 
 }  // namespace him
