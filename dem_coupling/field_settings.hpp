@@ -55,6 +55,8 @@ struct FieldSettings {
     double nearCutoff = 0;                    ///< r_c [m] of him, directTruncation, hybridParticleCell
     double permittivity = 0;                  ///< eps [F/m]
     Vector3 externalField = Vector3::Zero();  ///< [V/m], added to every method's field
+    /// Where no wall is at a voltage, a net charge on the mesh gets a uniform charge density against it.
+    bool neutralisingBackground = false;
     OutsideMesh outsideMesh = OutsideMesh::error;
     PairwiseSumSettings pairwiseSum;
     HimSettings him;

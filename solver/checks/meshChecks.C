@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checks/caseChecks.H"
 
+#include "foamPoissonMesh/meshArrays.H"
 #include "settings/checkedDictionary.H"
 #include "settings/foamExceptions.H"
 
+#include "IStringStream.H"
 #include "OSspecific.H"
 #include "coupledPolyPatch.H"
 #include "emptyPolyPatch.H"
 #include "fvSchemes.H"
 #include "gradScheme.H"
-#include "laplacianScheme.H"
 #include "wedgePolyPatch.H"
 
 namespace him {
@@ -59,34 +60,13 @@ void refuseFlatMesh(const Foam::polyMesh& mesh, Complaints& complaints)
     }
 }
 
-void checkSchemes(const Foam::fvMesh& mesh, Complaints& complaints)
+/// Numerics that the files name but OpenFOAM does not know.
+void checkSchemes(const Foam::fvMesh& mesh, const potentialNumerics& numerics, Complaints& complaints)
 {
-    attempt("system/fvSchemes: laplacianSchemes", complaints, [&] {
-        Foam::fv::laplacianScheme<Foam::scalar, Foam::scalar>::New(
-            mesh, mesh.laplacianScheme("laplacian(electricPotential)"));
+    attempt("system/fvSchemes: gradSchemes", complaints, [&] {
+        Foam::IStringStream scheme(numerics.gradient);
+        Foam::fv::gradScheme<Foam::scalar>::New(mesh, scheme);
     });
-    attempt("system/fvSchemes: gradSchemes", complaints,
-            [&] { Foam::fv::gradScheme<Foam::scalar>::New(mesh, mesh.gradScheme("grad(electricPotential)")); });
-}
-
-void checkSolution(const Foam::fileName& casePath, Complaints& complaints)
-{
-    checkedDictionary solution(casePath, "system/fvSolution", complaints);
-    if (!solution.readable()) {
-        return;
-    }
-    checkedDictionary solver = solution.section("solvers").section("electricPotential");
-    if (solver.readable()) {
-        std::vector<std::string> known;
-        for (const Foam::word& name : Foam::lduMatrix::solver::symMatrixConstructorTablePtr_->sortedToc()) {
-            known.push_back(name);
-        }
-        solver.oneOf("solver", known);
-        solver.positive("tolerance", 1e-6);
-    }
-    checkedDictionary corrections = solution.section("HIM", true);
-    corrections.nonNegativeInteger("nNonOrthogonalCorrectors", 0);
-    corrections.refuseUnknownEntries();
 }
 
 /// A mesh cut into more or fewer parts than there are ranks. Collective.
@@ -131,26 +111,32 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
         complete = false;
     }
     const std::size_t before = complaints.lines().size();
-    checkedDictionary(runTime.globalPath(), "system/fvSchemes", complaints);
-    checkSolution(runTime.globalPath(), complaints);
+    readPotentialNumerics(runTime.globalPath(), "system", complaints);
     complete = complete && complaints.lines().size() == before;
     if (!complete) {
         return nullptr;
     }
 
+    // A mesh reads schemes and solution together or not at all.
+    const bool haveNumerics = checkedDictionary::exists(runTime.globalPath(), "system/fvSchemes")
+                              && checkedDictionary::exists(runTime.globalPath(), "system/fvSolution");
     Foam::autoPtr<Foam::fvMesh> mesh;
     attempt("constant/polyMesh", complaints, [&] {
         mesh.reset(new Foam::fvMesh(
-            Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)));
+            Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime,
+                           haveNumerics ? Foam::IOobject::MUST_READ : Foam::IOobject::NO_READ)));
     });
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
 }
 
-std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, double permittivity, Complaints& complaints)
+std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, double permittivity, Complaints& complaints,
+                                                 bool neutralisingBackground)
 {
     const std::size_t before = complaints.lines().size();
     refuseFlatMesh(mesh, complaints);
-    checkSchemes(mesh, complaints);
+    Complaints alreadyMade;  // by openMesh
+    const potentialNumerics numerics = readPotentialNumerics(mesh.time().globalPath(), "system", alreadyMade);
+    checkSchemes(mesh, numerics, complaints);
 
     const std::string where = mesh.time().timeName() + "/electricPotential";
     Foam::IOobject header("electricPotential", mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ);
@@ -163,7 +149,9 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
     }
 
     std::unique_ptr<foamPoissonMesh> poisson;
-    attempt(where, complaints, [&] { poisson = std::make_unique<foamPoissonMesh>(mesh, permittivity); });
+    attempt(where, complaints, [&] {
+        poisson = std::make_unique<foamPoissonMesh>(mesh, permittivity, numerics, neutralisingBackground);
+    });
     if (!onAllRanks(bool(poisson))) {
         return nullptr;
     }
@@ -171,6 +159,13 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
         complaints.add(where + ": dimensions", "found other units than volt. Write dimensions [1 2 -3 0 0 -1 0];");
     }
     return poisson;
+}
+
+void checkConditions(const FieldSettings& settings, const foamPoissonMesh& mesh, Complaints& complaints)
+{
+    if (settings.method == "p3m") {
+        refuseOtherConditions(mesh.electricPotential(), complaints);
+    }
 }
 
 void checkCutoff(const FieldSettings& settings, const foamPoissonMesh& mesh, Complaints& complaints)

@@ -80,7 +80,8 @@ void refuseChargeWithoutVoltage(const caseSettings& settings, const DemPort& dem
                        "no patch fixes the voltage, but the particles "
                            + (wallsGiveCharge ? std::string("will be charged at walls")
                                               : "carry a net charge of " + shown(sums[0]) + " C")
-                           + ", and its field lines need somewhere to end. Give one patch a fixedValue.");
+                           + ", and its field lines need somewhere to end. Give one patch a fixedValue, or "
+                             "write neutralisingBackground yes; in constant/electrostaticProperties.");
     }
 }
 
@@ -133,7 +134,7 @@ void checkParticlesInMesh(const caseSettings& settings, const DemPort& dem, cons
     } else if (settings.field.outsideMesh == OutsideMesh::error) {
         refuseParticlesOutside(particles, mesh, communicator, complaints);
     }
-    if (!mesh.potentialIsFixed()) {
+    if (!mesh.potentialIsFixed() && !mesh.neutralisingBackground()) {
         refuseChargeWithoutVoltage(settings, dem, particles, communicator, complaints);
     }
 }

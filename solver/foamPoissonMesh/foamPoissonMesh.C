@@ -2,12 +2,10 @@
 #include "foamPoissonMesh/foamPoissonMesh.H"
 
 #include "foamPoissonMesh/conversions.H"
+#include "foamPoissonMesh/meshPart.H"
 #include "settings/checkedDictionary.H"
 
 #include "extrapolatedCalculatedFvPatchFields.H"
-#include "fvScalarMatrix.H"
-#include "fvcGrad.H"
-#include "fvmLaplacian.H"
 
 #include <stdexcept>
 
@@ -18,15 +16,15 @@ namespace {
 using namespace Foam;
 
 const dimensionSet dimPotential(1, 2, -3, 0, 0, -1, 0);
-const dimensionSet dimPermittivity(-1, -3, 4, 0, 0, 2, 0);
 const dimensionSet dimCharge(0, 0, 1, 0, 0, 1, 0);
 
 /// A net charge above this share of all charges counts as one.
 constexpr double neutrality = 1e-9;
 
-IOobject fieldIO(const word& name, const fvMesh& mesh, IOobject::readOption read)
+/// A field that is written only after it has been solved for.
+IOobject resultIO(const word& name, const fvMesh& mesh)
 {
-    return IOobject(name, mesh.time().timeName(), mesh, read, IOobject::AUTO_WRITE);
+    return IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE);
 }
 
 Box boundsOf(const pointField& points)
@@ -56,24 +54,27 @@ double largestDiagonal(const fvMesh& mesh)
 
 }  // namespace
 
-foamPoissonMesh::foamPoissonMesh(const Foam::fvMesh& mesh, double permittivity)
+foamPoissonMesh::foamPoissonMesh(const Foam::fvMesh& mesh, double permittivity, const potentialNumerics& numerics,
+                                 bool neutralisingBackground)
     : mesh_(mesh),
-      permittivity_("permittivity", dimPermittivity, permittivity),
-      nonOrthogonalCorrectors_(
-          mesh.solutionDict().subOrEmptyDict("HIM").lookupOrDefault("nNonOrthogonalCorrectors", 0)),
-      electricPotential_(fieldIO("electricPotential", mesh, IOobject::MUST_READ), mesh),
-      chargeDensity_(fieldIO("chargeDensity", mesh, IOobject::NO_READ), mesh,
-                     dimensionedScalar(dimCharge / dimVolume, Zero),
+      permittivity_(permittivity),
+      numerics_(numerics),
+      neutralisingBackground_(neutralisingBackground),
+      electricPotential_(
+          IOobject("electricPotential", mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh),
+      chargeDensity_(resultIO("chargeDensity", mesh), mesh, dimensionedScalar(dimCharge / dimVolume, Zero),
                      extrapolatedCalculatedFvPatchScalarField::typeName),
-      electricField_(fieldIO("electricField", mesh, IOobject::NO_READ), mesh,
-                     dimensionedVector(dimPotential / dimLength, Zero),
+      electricField_(resultIO("electricField", mesh), mesh, dimensionedVector(dimPotential / dimLength, Zero),
                      extrapolatedCalculatedFvPatchVectorField::typeName),
       locator_(mesh),
       localBounds_(boundsOf(mesh.points())),
       largestCellDiagonal_(largestDiagonal(mesh)),
-      potentialIsFixed_(!electricPotential_.needReference())
+      potentialIsFixed_(!electricPotential_.needReference()),
+      equation_(electricPotential_, numerics_)
 {
 }
+
+foamPoissonMesh::~foamPoissonMesh() = default;
 
 Vector3 foamPoissonMesh::cellCentre(Index cell) const
 {
@@ -88,7 +89,8 @@ Vector3 foamPoissonMesh::electricField(Index cell) const
 
 double foamPoissonMesh::potential(Index cell) const
 {
-    return electricPotential_[static_cast<label>(cell)];
+    const label index = static_cast<label>(cell);
+    return partIsLatest_ ? part_->potential[index] + part_->correction[index] : electricPotential_[index];
 }
 
 Box foamPoissonMesh::globalBounds() const
@@ -104,36 +106,53 @@ void foamPoissonMesh::refuseNetCharge(const Scalars& cellCharge) const
     const scalar net = returnReduce(scalar(cellCharge.sum()), sumOp<scalar>());
     const scalar all = returnReduce(scalar(cellCharge.abs().sum()), sumOp<scalar>());
     if (std::abs(net) > neutrality * all) {
-        throw std::runtime_error(
-            "no patch of 0/electricPotential fixes the voltage, but the mesh holds a net charge of " + shown(net)
-            + " C, whose field lines have nowhere to end. Give one patch a fixedValue.");
+        throw std::runtime_error("no patch of electricPotential fixes the voltage, but the mesh holds a net charge of "
+                                 + shown(net)
+                                 + " C, whose field lines have nowhere to end. Give one patch a fixedValue, or write "
+                                   "neutralisingBackground yes; in constant/electrostaticProperties.");
     }
+}
+
+void foamPoissonMesh::balance(Foam::scalarField& source, double boundaryFlux) const
+{
+    const scalar excess = returnReduce(sum(source) - boundaryFlux, sumOp<scalar>());
+    source -= (excess / gSum(mesh_.V())) * mesh_.V().field();
+}
+
+Foam::scalarField foamPoissonMesh::sourceOf(const Scalars& cellCharge) const
+{
+    if (!potentialIsFixed_ && !neutralisingBackground_) {
+        refuseNetCharge(cellCharge);
+    }
+    scalarField source(mesh_.nCells());
+    forAll(source, cell)
+    {
+        source[cell] = -cellCharge[cell] / permittivity_;
+    }
+    return source;
 }
 
 void foamPoissonMesh::solve(const Scalars& cellCharge)
 {
+    scalarField source = sourceOf(cellCharge);
     if (!potentialIsFixed_) {
-        refuseNetCharge(cellCharge);
+        balance(source, equation_.boundaryFlux());
     }
+    equation_.solve(source);
+    partIsLatest_ = false;
+    electricField_ = -equation_.gradient();
     forAll(chargeDensity_, cell)
     {
         chargeDensity_[cell] = cellCharge[cell] / mesh_.V()[cell];
     }
     chargeDensity_.correctBoundaryConditions();
+    electricField_.writeOpt() = IOobject::AUTO_WRITE;
+    chargeDensity_.writeOpt() = IOobject::AUTO_WRITE;
+}
 
-    for (int corrector = 0; corrector <= nonOrthogonalCorrectors_; ++corrector) {
-        fvScalarMatrix potentialEqn(fvm::laplacian(electricPotential_) == -chargeDensity_ / permittivity_);
-        potentialEqn.setReference(0, 0);  // does nothing where a patch fixes the potential
-        const solverPerformance performance = potentialEqn.solve();
-        if (!performance.converged()) {
-            throw std::runtime_error("the potential did not converge: " + performance.solverName() + " stopped after "
-                                     + std::to_string(performance.nIterations()) + " iterations at a residual of "
-                                     + shown(performance.finalResidual())
-                                     + ". Raise maxIter or tolerance, or choose another solver, in "
-                                     + "solvers.electricPotential of system/fvSolution.");
-        }
-    }
-    electricField_ = -fvc::grad(electricPotential_);
+std::string foamPoissonMesh::description() const
+{
+    return std::to_string(returnReduce(mesh_.nCells(), sumOp<label>())) + " cells, " + equation_.description();
 }
 
 }  // namespace him

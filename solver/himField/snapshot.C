@@ -99,7 +99,11 @@ void openSnapshot(const Foam::argList& args, const std::vector<std::string>& nam
         return;
     }
     s.periodic = periodicDirections(s.mesh(), complaints);
-    s.poisson = openPoissonMesh(s.mesh(), s.choices.selected.permittivity, complaints);
+    s.poisson = openPoissonMesh(s.mesh(), s.choices.selected.permittivity, complaints,
+                                s.choices.selected.neutralisingBackground);
+    if (s.poisson) {
+        checkConditions(s.choices.selected, *s.poisson, complaints);
+    }
     if (s.poisson) {
         s.box = s.poisson->globalBounds();
         s.walls = findMeshWalls(*s.poisson);

@@ -22,9 +22,11 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
         }
     }
     if (s.mesh.valid()) {
-        s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints);
+        s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints,
+                                    s.settings.field.neutralisingBackground);
     }
     if (s.poisson) {
+        checkConditions(s.settings.field, *s.poisson, complaints);
         checkCutoff(s.settings.field, *s.poisson, complaints);
     }
     if (s.poisson || !s.settings.needsMesh) {

@@ -77,6 +77,13 @@ checkedDictionary::checkedDictionary(const Foam::fileName& casePath, const Foam:
     }
 }
 
+bool checkedDictionary::exists(const Foam::fileName& casePath, const Foam::fileName& file)
+{
+    bool found = Foam::Pstream::master() && Foam::isFile(casePath / file, false);
+    Foam::Pstream::scatter(found);
+    return found;
+}
+
 checkedDictionary::checkedDictionary(const Foam::dictionary& contents, const std::string& where, bool readable,
                                      Complaints& complaints)
     : contents_(contents), where_(where), readable_(readable), complaints_(complaints)
@@ -100,19 +107,20 @@ bool checkedDictionary::absent(const std::string& entry, bool required)
     return true;
 }
 
-std::string checkedDictionary::found(const std::string& entry) const
+std::string checkedDictionary::wordsOf(const std::string& entry) const
 {
     Foam::OStringStream stream;
-    const Foam::entry* found = contents_.findEntry(entry);
-    if (found->isDict()) {
-        return "a sub-dictionary";
-    }
     bool first = true;
-    for (const Foam::token& token : found->stream()) {
+    for (const Foam::token& token : contents_.findEntry(entry)->stream()) {
         stream << (first ? "" : " ") << token;
         first = false;
     }
-    return "`" + stream.str() + "`";
+    return stream.str();
+}
+
+std::string checkedDictionary::found(const std::string& entry) const
+{
+    return contents_.findEntry(entry)->isDict() ? "a sub-dictionary" : "`" + wordsOf(entry) + "`";
 }
 
 template <class Value>
@@ -212,6 +220,11 @@ std::string checkedDictionary::text(const std::string& entry)
         read(entry, "text in double quotes", value);
     }
     return value;
+}
+
+std::string checkedDictionary::written(const std::string& entry)
+{
+    return absent(entry, false) || contents_.findEntry(entry)->isDict() ? "" : wordsOf(entry);
 }
 
 std::string checkedDictionary::oneOf(const std::string& entry, const std::vector<std::string>& known,

@@ -71,6 +71,8 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
     common.externalField = properties.vector("externalField", Vector3::Zero());
     common.permittivity = epsilon0 * properties.positive("relativePermittivity", 1);
 
+    common.neutralisingBackground = properties.yesNo("neutralisingBackground", false);
+
     fieldChoices choices;
     choices.selected = common;
     for (const std::string& method : FieldMethod::names()) {

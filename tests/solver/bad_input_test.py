@@ -80,7 +80,7 @@ class BadInput(unittest.TestCase):
 
     def test_unknown_method_lists_the_known_ones(self):
         self.case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod hum;")
-        self.refused("fieldMethod: unknown name `hum`; known: pairwiseSum, directTruncation, him.")
+        self.refused("fieldMethod: unknown name `hum`; known: pairwiseSum, directTruncation, him, p3m.")
 
     def test_misspelt_entry_lists_the_known_ones(self):
         self.case.replace(ELECTROSTATIC, "externalField", "externalFeild")
@@ -130,17 +130,22 @@ class BadInput(unittest.TestCase):
         self.case.replace(POTENTIAL, "[1 2 -3 0 0 -1 0]", "[0 1 -1 0 0 0 0]")
         self.refused("0/electricPotential: dimensions: found other units than volt")
 
-    def test_missing_solver(self):
-        self.case.replace("system/fvSolution", "electricPotential {", "p {")
-        self.refused("system/fvSolution: solvers: electricPotential: the entry is missing")
+    def test_solver_entry_without_a_solver(self):
+        self.case.replace("system/fvSolution", "solver PCG;", "")
+        self.refused("system/fvSolution: solvers: electricPotential: solver: the entry is missing")
 
     def test_unknown_solver_lists_the_known_ones(self):
         self.case.replace("system/fvSolution", "solver PCG;", "solver PGC;")
         self.refused("solvers: electricPotential: solver: unknown name `PGC`; known: GAMG, PBiCGStab, PCG, smoothSolver.")
 
-    def test_missing_gradient_scheme(self):
-        self.case.replace("system/fvSchemes", "gradSchemes { default Gauss linear; }", "gradSchemes { default none; }")
-        self.refused("system/fvSchemes: gradSchemes: ", "grad(electricPotential)")
+    def test_unknown_gradient_scheme(self):
+        self.case.replace("system/fvSchemes", "gradSchemes { default Gauss linear; }", "gradSchemes { default Gaus; }")
+        self.refused("system/fvSchemes: gradSchemes: Unknown grad type Gaus")
+
+    def test_unknown_laplacian_scheme_lists_the_known_ones(self):
+        self.case.replace("system/fvSchemes", "Gauss linear corrected;", "Gauss linear faceCorrected;")
+        self.refused("system/fvSchemes: laplacianSchemes: laplacian(electricPotential): found `Gauss linear faceCorrected`",
+                     "corrected, uncorrected, orthogonal, limited <number>")
 
     def test_time_step_of_zero(self):
         self.case.replace("system/controlDict", "deltaT 1e-3;", "deltaT 0;")

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foamPoissonMesh/meshArrays.H"
+
+#include "foamPoissonMesh/conversions.H"
+
+#include "basicSymmetryFvPatchField.H"
+#include "cyclicPolyPatch.H"
+#include "fixedGradientFvPatchFields.H"
+#include "fvMesh.H"
+#include "mixedFvPatchFields.H"
+#include "processorCyclicPolyPatch.H"
+#include "zeroGradientFvPatchFields.H"
+
+#include <algorithm>
+
+namespace him {
+
+namespace {
+
+using namespace Foam;
+
+bool isInsulated(const fvPatchScalarField& potential)
+{
+    if (const auto* gradient = dynamic_cast<const fixedGradientFvPatchScalarField*>(&potential)) {
+        const scalarField& values = gradient->gradient();
+        return std::all_of(values.begin(), values.end(), [](scalar value) { return value == 0; });
+    }
+    return isA<zeroGradientFvPatchScalarField>(potential) || isA<basicSymmetryFvPatchField<scalar>>(potential);
+}
+
+/// Why cells on both sides of this coupled patch cannot be neighbours as p3m needs it; empty when they can.
+std::string whyNotCoupled(const fvPatchScalarField& potential)
+{
+    const polyPatch& patch = potential.patch().patch();
+    if (!isA<processorPolyPatch>(patch) && !isA<cyclicPolyPatch>(patch)) {
+        return "a patch of type " + patch.type()
+               + ", whose faces have no single cell on the other side. Use cyclic patches with matching faces";
+    }
+    if (potential.type() != patch.type()) {
+        return "the condition " + potential.type() + " on a patch of type " + patch.type()
+               + ". A jump of the potential between periodic copies is not modelled; use " + patch.type();
+    }
+    if (!refCast<const coupledPolyPatch>(patch).parallel()) {
+        return "a periodic patch with rotation. The copies of a charge must all stand in the same direction; use a "
+               "cyclic patch with transform translational, or the whole geometry";
+    }
+    return {};
+}
+
+std::string whyNotCondition(const fvPatchScalarField& potential)
+{
+    if (potential.coupled()) {
+        return whyNotCoupled(potential);
+    }
+    if (isConductor(potential) || isInsulated(potential)) {
+        return {};
+    }
+    return "the condition " + potential.type()
+           + ", of which it is not known whether the wall is a conductor. Known: fixedValue and its kin, zeroGradient, "
+             "fixedGradient with gradient 0, symmetry, symmetryPlane, cyclic";
+}
+
+/// Translation from the cells beyond the patch to where this side sees them; exactly zero at plain rank boundaries.
+vector shiftOf(const fvPatch& patch)
+{
+    const polyPatch& faces = patch.patch();
+    if (patch.size() == 0 || (isA<processorPolyPatch>(faces) && !isA<processorCyclicPolyPatch>(faces))) {
+        return Zero;
+    }
+    const vectorField& others = isA<processorPolyPatch>(faces)
+                                    ? refCast<const processorPolyPatch>(faces).neighbFaceCentres()
+                                    : refCast<const cyclicPolyPatch>(faces).neighbPatch().faceCentres();
+    // Components that differ by round-off alone must not look like a tiny translation.
+    vector shift = average(vectorField(faces.faceCentres() - others));
+    for (direction component = 0; component < vector::nComponents; ++component) {
+        if (std::abs(shift[component]) < 1e-9 * mag(shift)) {
+            shift[component] = 0;
+        }
+    }
+    return shift;
+}
+
+void addCoupledFaces(const fvPatchScalarField& potential, CoupledFaces& faces)
+{
+    const fvPatch& patch = potential.patch();
+    const fvMesh& mesh = patch.boundaryMesh().mesh();
+    const labelList ownCells = identity(mesh.nCells());
+    const labelField otherCells =
+        refCast<const lduInterface>(patch).internalFieldTransfer(Pstream::commsTypes::nonBlocking, ownCells);
+    const auto* processor = dynamic_cast<const processorPolyPatch*>(&patch.patch());
+    const int rank = processor ? processor->neighbProcNo() : Pstream::myProcNo();
+    const vector shift = shiftOf(patch);
+
+    Index row = faces.size();
+    const Index all = row + patch.size();
+    faces.centre.conservativeResize(all, 3);
+    faces.areaVector.conservativeResize(all, 3);
+    faces.shift.conservativeResize(all, 3);
+    forAll(patch, i)
+    {
+        faces.centre.row(row) = toEigen(patch.Cf()[i]).transpose().array();
+        faces.areaVector.row(row) = toEigen(patch.Sf()[i]).transpose().array();
+        faces.shift.row(row) = toEigen(shift).transpose().array();
+        faces.cell.push_back(patch.faceCells()[i]);
+        faces.otherRank.push_back(rank);
+        faces.otherCell.push_back(otherCells[i]);
+        ++row;
+    }
+}
+
+scalar radiusOf(const fvPatch& patch, label i)
+{
+    scalar largest = 0;
+    for (const label point : patch.patch()[i]) {
+        largest = max(largest, magSqr(patch.patch().points()[point] - patch.Cf()[i]));
+    }
+    return std::sqrt(largest);
+}
+
+void addBoundaryFaces(const fvPatchScalarField& potential, BoundaryFaces& faces)
+{
+    const fvPatch& patch = potential.patch();
+    const bool conductor = isConductor(potential);
+    Index row = faces.size();
+    const Index all = row + patch.size();
+    faces.centre.conservativeResize(all, 3);
+    faces.normal.conservativeResize(all, 3);
+    faces.area.conservativeResize(all);
+    faces.radius.conservativeResize(all);
+    faces.value.conservativeResize(all);
+    forAll(patch, i)
+    {
+        faces.centre.row(row) = toEigen(patch.Cf()[i]).transpose().array();
+        faces.normal.row(row) = toEigen(patch.Sf()[i] / patch.magSf()[i]).transpose().array();
+        faces.area[row] = patch.magSf()[i];
+        faces.radius[row] = radiusOf(patch, i);
+        faces.value[row] = conductor ? potential[i] : 0;
+        faces.cell.push_back(patch.faceCells()[i]);
+        faces.condition.push_back(conductor ? FaceCondition::conductor : FaceCondition::insulated);
+        ++row;
+    }
+}
+
+InternalFaces internalFacesOf(const fvMesh& mesh)
+{
+    InternalFaces faces;
+    faces.centre.resize(mesh.nInternalFaces(), 3);
+    faces.areaVector.resize(mesh.nInternalFaces(), 3);
+    for (label face = 0; face < mesh.nInternalFaces(); ++face) {
+        faces.centre.row(face) = toEigen(mesh.faceCentres()[face]).transpose().array();
+        faces.areaVector.row(face) = toEigen(mesh.faceAreas()[face]).transpose().array();
+        faces.owner.push_back(mesh.faceOwner()[face]);
+        faces.neighbour.push_back(mesh.faceNeighbour()[face]);
+    }
+    return faces;
+}
+
+}  // namespace
+
+bool isConductor(const fvPatchScalarField& potential)
+{
+    // Mixed conditions say that they fix the value, whatever their value fraction is.
+    return potential.fixesValue() && !isA<mixedFvPatchScalarField>(potential);
+}
+
+void refuseOtherConditions(const volScalarField& potential, Complaints& complaints)
+{
+    forAll(potential.boundaryField(), patch)
+    {
+        // A gradient of zero on this rank's faces says nothing about the others.
+        std::string reason = whyNotCondition(potential.boundaryField()[patch]);
+        if (!isA<processorPolyPatch>(potential.boundaryField()[patch].patch().patch())) {
+            List<string> reasons(Pstream::nProcs());
+            reasons[Pstream::myProcNo()] = reason;
+            Pstream::gatherList(reasons);
+            Pstream::scatterList(reasons);
+            const auto found = std::find_if(reasons.begin(), reasons.end(), [](const auto& r) { return !r.empty(); });
+            reason = found == reasons.end() ? "" : *found;
+        }
+        if (!reason.empty()) {
+            complaints.add(potential.time().timeName() + "/electricPotential: "
+                               + potential.boundaryField()[patch].patch().name(),
+                           "found " + reason + ".");
+        }
+    }
+}
+
+MeshArrays makeMeshArrays(const volScalarField& potential)
+{
+    const fvMesh& mesh = potential.mesh();
+    MeshArrays arrays;
+    arrays.centre.resize(mesh.nCells(), 3);
+    arrays.volume.resize(mesh.nCells());
+    arrays.radius.resize(mesh.nCells());
+    for (label cell = 0; cell < mesh.nCells(); ++cell) {
+        arrays.centre.row(cell) = toEigen(mesh.cellCentres()[cell]).transpose().array();
+        arrays.volume[cell] = mesh.V()[cell];
+        scalar farthest = 0;
+        for (const label point : mesh.cellPoints()[cell]) {
+            farthest = max(farthest, magSqr(mesh.points()[point] - mesh.cellCentres()[cell]));
+        }
+        arrays.radius[cell] = std::sqrt(farthest);
+    }
+    arrays.internal = internalFacesOf(mesh);
+    for (const fvPatchScalarField& patch : potential.boundaryField()) {
+        if (!patch.coupled()) {
+            addBoundaryFaces(patch, arrays.boundary);
+        }
+    }
+    for (const fvPatchScalarField& patch : potential.boundaryField()) {
+        if (patch.coupled()) {
+            addCoupledFaces(patch, arrays.coupled);
+        }
+    }
+    return arrays;
+}
+
+void updateVoltages(volScalarField& potential, MeshArrays& arrays)
+{
+    Index row = 0;
+    for (fvPatchScalarField& patch : potential.boundaryFieldRef()) {
+        if (patch.coupled()) {
+            continue;
+        }
+        if (isConductor(patch)) {
+            patch.evaluate();
+            forAll(patch, i)
+            {
+                arrays.boundary.value[row + i] = patch[i];
+            }
+        }
+        row += patch.size();
+    }
+}
+
+}  // namespace him
