@@ -188,7 +188,7 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
             continue;
         }
         if (!mesh) {
-            if (target != grounded) {
+            if (target != groundedTarget) {
                 complaints.add(where + wall, "unknown target `" + target + "`; fieldMethod " + settings.field.method
                                                  + " reads no mesh, so the known ones are grounded, noTransfer.");
             }

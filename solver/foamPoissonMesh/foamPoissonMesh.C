@@ -93,6 +93,15 @@ double foamPoissonMesh::potential(Index cell) const
     return partIsLatest_ ? part_->potential[index] + part_->correction[index] : electricPotential_[index];
 }
 
+void foamPoissonMesh::forgetPotential()
+{
+    electricPotential_.primitiveFieldRef() = 0;
+    if (part_) {
+        part_->potential.primitiveFieldRef() = 0;
+        part_->firstIncrement = 0;
+    }
+}
+
 Box foamPoissonMesh::globalBounds() const
 {
     Box box;

@@ -86,7 +86,7 @@ void addCoupledFaces(const fvPatchScalarField& potential, CoupledFaces& faces)
     const fvMesh& mesh = patch.boundaryMesh().mesh();
     const labelList ownCells = identity(mesh.nCells());
     const labelField otherCells =
-        refCast<const lduInterface>(patch).internalFieldTransfer(Pstream::commsTypes::nonBlocking, ownCells);
+        refCast<const lduInterface>(patch).internalFieldTransfer(Pstream::commsTypes::blocking, ownCells);
     const auto* processor = dynamic_cast<const processorPolyPatch*>(&patch.patch());
     const int rank = processor ? processor->neighbProcNo() : Pstream::myProcNo();
     const vector shift = shiftOf(patch);
@@ -205,6 +205,13 @@ MeshArrays makeMeshArrays(const volScalarField& potential)
     for (const fvPatchScalarField& patch : potential.boundaryField()) {
         if (!patch.coupled()) {
             addBoundaryFaces(patch, arrays.boundary);
+        }
+    }
+    const labelList ownCells = identity(mesh.nCells());
+    for (const fvPatchScalarField& patch : potential.boundaryField()) {
+        if (patch.coupled()) {
+            // Sends are buffered, so that all of them can go out before the first receive.
+            refCast<const lduInterface>(patch.patch()).initInternalFieldTransfer(Pstream::commsTypes::blocking, ownCells);
         }
     }
     for (const fvPatchScalarField& patch : potential.boundaryField()) {

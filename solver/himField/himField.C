@@ -5,11 +5,12 @@ Application
 
 Description
     Electric field and potential at given charged particles, by any field
-    method of himFoam, on the mesh and with the boundary conditions of a case.
+    method of himFoam, on the mesh and with the boundary conditions of a case;
+    and a comparison of all methods, speed against error.
 
 Usage
     himField [-case DIR] -particles FILE.csv [-method NAME] [-output FILE.csv]
-             [-parallel]
+             [-compare [-methods "(NAME ...)"] [-repeat N]] [-parallel]
 
     See solver/doc/himField.md. Neither a DEM script nor couplingProperties is
     needed. Everything that is wrong is listed at once; the exit code is
@@ -17,12 +18,18 @@ Usage
 
 SourceFiles
     himField.C
+    comparison.C
+    comparisonReport.C
+    comparisonTable.C
     meshWalls.C
     particleShares.C
     particleTable.C
+    rectangularBox.C
+    referenceField.C
     snapshot.C
     timedMethod.C
 \*---------------------------------------------------------------------------*/
+#include "himField/comparisonReport.H"
 #include "himField/particleShares.H"
 #include "himField/snapshot.H"
 #include "himField/timedMethod.H"
@@ -32,7 +39,10 @@ SourceFiles
 
 #include "OSspecific.H"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 namespace him {
 
@@ -86,25 +96,54 @@ void writeField(snapshot& s, const fieldChoice& choice, const particleTable& tab
     Foam::Info << "    written to " << output.c_str() << "\n\nEnd\n" << Foam::endl;
 }
 
+/// Options that do not fit together.
+void checkOptions(const Foam::argList& args, Complaints& complaints)
+{
+    if (!args.found("particles")) {
+        complaints.add("-particles", "the option is missing. Give a file with the columns x,y,z,q.");
+    }
+    for (const char* option : {"method", "output"}) {
+        if (args.found("compare") && args.found(option)) {
+            complaints.add(std::string("-") + option, "the option is for one field, but -compare is there as well.");
+        }
+    }
+    for (const char* option : {"methods", "repeat"}) {
+        if (!args.found("compare") && args.found(option)) {
+            complaints.add(std::string("-") + option, "the option is for -compare, which is not there.");
+        }
+    }
+    if (args.found("repeat") && args.lookupOrDefault("repeat", 0) < 1) {
+        complaints.add("-repeat", "found `" + args["repeat"] + "`, but a whole number from 1 upwards is expected.");
+    }
+}
+
+/// Names in a list like "(him p3m)"; commas are allowed.
+std::vector<std::string> namesIn(std::string list)
+{
+    std::replace_if(
+        list.begin(), list.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+    std::istringstream stream(list);
+    return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
+}
+
 void run(const Foam::argList& args, MPI_Comm communicator)
 {
     Complaints complaints;
-    if (!args.found("particles")) {
-        complaints.add("-particles", "the option is missing. Give a file with the columns x,y,z,q.");
-        stopOnComplaints(complaints, "Command line", communicator);
-    }
-    const std::string file = args["particles"];
-    std::vector<std::string> names;
-    if (args.found("method")) {
-        names.push_back(args["method"]);
-    }
+    checkOptions(args, complaints);
+    stopOnComplaints(complaints, "Command line", communicator);
+    const bool compare = args.found("compare");
+    const char* option = compare ? "methods" : "method";
+    const std::vector<std::string> names = args.found(option) ? namesIn(args[option]) : std::vector<std::string>();
     snapshot s;
-    openSnapshot(args, names, false, s, complaints);
+    openSnapshot(args, names, compare, s, complaints);
     stopOnComplaints(complaints, "Dictionaries, mesh and fields", communicator);
     const fieldChoice selected{s.choices.selected.method, s.choices.selected};
     const fieldChoice& choice = names.empty() ? selected : *s.choices.find(names.front());
-    complaints.add(FieldMethod::check(s.complete(choice.settings), s.poisson.get(), s.box, s.periodic));
+    if (!compare) {
+        complaints.add(FieldMethod::check(s.complete(choice.settings), s.poisson.get(), s.box, s.periodic));
+    }
 
+    const std::string file = args["particles"];
     rowComplaints faults(file, complaints);
     particleTable table;
     if (Foam::Pstream::master()) {
@@ -117,8 +156,16 @@ void run(const Foam::argList& args, MPI_Comm communicator)
     }
     stopOnComplaints(complaints, "Particles", communicator);
 
-    const Foam::fileName standard = s.runTime().globalPath() / "postProcessing" / "himField" / "field.csv";
-    writeField(s, choice, table, shares, args.found("output") ? args["output"] : standard, communicator);
+    const Foam::fileName folder = s.runTime().globalPath() / "postProcessing" / "himField";
+    if (compare) {
+        comparisonOptions options;
+        options.names = names;
+        options.rounds = args.lookupOrDefault("repeat", options.rounds);
+        reportComparison(s, table, shares, options, folder, communicator);
+    } else {
+        const std::string standard = folder / "field.csv";
+        writeField(s, choice, table, shares, args.found("output") ? args["output"] : standard, communicator);
+    }
 }
 
 }  // namespace
@@ -128,6 +175,9 @@ void run(const Foam::argList& args, MPI_Comm communicator)
 int main(int argc, char* argv[])
 {
     Foam::argList::addNote("Electric field and potential at the particles of a file, by any field method of himFoam.");
+    Foam::argList::addBoolOption("compare", "Run all methods: table and plot of speed against error");
+    Foam::argList::addOption("methods", "list", "The methods and variants to compare, \"(him p3m)\"");
+    Foam::argList::addOption("repeat", "N", "Rounds of timed calls in a comparison (default 5)");
     Foam::argList::addOption("particles", "file", "Comma-separated values with the columns x,y,z,q [m, C]");
     Foam::argList::addOption("method", "name", "Method or variant in place of fieldMethod");
     Foam::argList::addOption("output", "file", "The same lines plus Ex,Ey,Ez,V");

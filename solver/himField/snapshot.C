@@ -106,6 +106,8 @@ void openSnapshot(const Foam::argList& args, const std::vector<std::string>& nam
     }
     if (s.poisson) {
         s.box = s.poisson->globalBounds();
+        const auto cells = static_cast<double>(Foam::returnReduce(s.mesh().nCells(), Foam::sumOp<Foam::label>()));
+        s.cellSize = std::cbrt(Foam::gSum(s.mesh().cellVolumes()) / cells);
         s.walls = findMeshWalls(*s.poisson);
     }
 }

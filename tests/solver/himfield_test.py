@@ -3,6 +3,7 @@
 
 import csv
 import math
+import re
 import tempfile
 import unittest
 
@@ -82,6 +83,78 @@ class HimField(unittest.TestCase):
     def test_a_method_without_a_potential_writes_nan(self):
         self.assertEqual({row["V"] for row in self.field(table(), "-method", "him")}, {"nan"})
 
+    # --- comparison
+
+    def compared(self, text, *options, ranks=1):
+        """Rows of the comparison by name."""
+        (self.case.path / "in.csv").write_text(text)
+        result = self.case.run("-particles", "in.csv", "-compare", *options, ranks=ranks, program="himField")
+        self.assertEqual(result.code, 0, result.text)
+        folder = self.case.path / "postProcessing/himField"
+        self.assertIn("RMS error", (folder / "compare.txt").read_text())
+        with open(folder / "compare.csv", newline="") as file:
+            return {row["name"]: row for row in csv.DictReader(file)}
+
+    def test_a_comparison_lists_every_method_and_variant_with_times_or_the_reason_why_not(self):
+        self.case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod him; wide { fieldMethod him; nearCutoff 0.04; } "
+                          "toShort { fieldMethod him; nearCutoff 0.01; }")
+        for ranks in (1, 2):
+            if ranks > 1:
+                self.case.decompose(ranks)
+            rows = self.compared(table(), "-repeat", "2", ranks=ranks)
+            known = re.search("known: ([^.]*)", self.refused(table(), options=("-method", "hum"))).group(1).split(", ")
+            self.assertEqual(list(rows), known)
+            self.assertIn("below the largest cell diagonal", rows.pop("toShort")["left_out"])
+            for name in ("pairwiseSum", "directTruncation", "him", "p3m", "wide"):
+                row = rows[name]
+                self.assertEqual((row["left_out"], row["rounds"], row["ranks"]), ("", "2", str(ranks)))
+                for start in ("cold", "warm"):
+                    phases = sum(float(row["%s_%s_s" % (start, phase)]) for phase in ("near", "deposit", "solve", "gather", "exchange"))
+                    self.assertGreater(float(row[start + "_total_s"]), 0.3 * phases)
+                self.assertGreater(float(row["rms_error"]), 1e-3)
+                self.assertGreater(float(row["largest_error"]), float(row["rms_error"]))
+            self.assertGreater(float(rows["wide"]["pairs_per_particle"]), float(rows["him"]["pairs_per_particle"]))
+            self.assertGreater(float(rows["him"]["cold_solve_s"]), float(rows["him"]["cold_near_s"]))
+        try:
+            import matplotlib  # noqa: F401
+        except ImportError:
+            return
+        self.assertGreater((self.case.path / "postProcessing/himField/compare.png").stat().st_size, 5000)
+
+    def test_a_list_restricts_the_comparison(self):
+        self.assertEqual(list(self.compared(table(), "-methods", "(him directTruncation)", "-repeat", "1")),
+                         ["directTruncation", "him"])
+
+    def test_the_error_in_a_grounded_box_is_that_against_the_exact_field(self):
+        charge = 1e-9
+        one = "x,y,z,q\n%r,%r,%r,%r\n" % (0.25 * SIZE, 0.5 * SIZE, 0.5 * SIZE, charge)
+        self.case.replace(ELECTROSTATIC, "externalField (0 0 1000);", "externalField (0 0 0);")
+        exact = -3.09959 * charge / (4 * math.pi * EPSILON0 * SIZE**2)
+        field = self.vectors(one, "-method", "him")[0]
+        error = math.hypot(field[0] - exact, field[1], field[2]) / abs(exact)
+        row = self.compared(one, "-methods", "him", "-repeat", "1")["him"]
+        self.assertIn("exact", row["reference"])
+        self.assertGreater(error, 0.01)
+        self.assertAlmostEqual(float(row["rms_error"]), error, delta=1e-4)
+        self.assertAlmostEqual(float(row["rms_error_V_per_m"]) / (error * abs(exact)), 1, delta=1e-3)
+
+    def test_without_a_mesh_the_sum_over_all_pairs_is_the_reference(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.case = TinyCase(folder, method="directTruncation")
+            exact = self.vectors(table(), "-method", "pairwiseSum")
+            difference = [[a - b for a, b in zip(one, other)] for one, other in zip(self.vectors(table()), exact)]
+            ours = [[a - b for a, b in zip(row, (0, 0, 1000))] for row in exact]
+            rms = math.sqrt(sum(e * e for row in difference for e in row) / sum(e * e for row in ours for e in row))
+            rows = self.compared(table(), "-repeat", "1")
+            self.assertAlmostEqual(float(rows["directTruncation"]["rms_error"]) / rms, 1, delta=1e-6)
+            self.assertLess(float(rows["pairwiseSum"]["rms_error"]), 1e-12)
+            self.assertIn("needs a mesh", rows["him"]["left_out"])
+
+    def test_options_that_do_not_fit_are_refused(self):
+        self.refused(table(), "-output: the option is for one field", options=("-compare", "-output", "out.csv"))
+        self.refused(table(), "-methods: the option is for -compare", "-repeat: the option is for -compare",
+                     options=("-methods", "him", "-repeat", "2"))
+
     # --- the table
 
     def test_rows_keep_their_order_and_text_in_any_order_of_columns(self):
@@ -96,7 +169,7 @@ class HimField(unittest.TestCase):
         self.assert_same(plain, [tuple(float(row[e]) for e in ("Ex", "Ey", "Ez")) for row in reversed(rows)], 1e-12)
 
     def test_any_number_of_ranks_gives_the_same_rows(self):
-        for method in ("him", "pairwiseSum", "directTruncation"):
+        for method in ("him", "p3m", "pairwiseSum", "directTruncation"):
             serial = self.vectors(table(), "-method", method)
             for ranks in (2, 4):
                 self.case.decompose(ranks)
