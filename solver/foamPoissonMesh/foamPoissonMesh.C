@@ -143,11 +143,20 @@ Foam::scalarField foamPoissonMesh::sourceOf(const Scalars& cellCharge) const
 
 void foamPoissonMesh::solve(const Scalars& cellCharge)
 {
-    scalarField source = sourceOf(cellCharge);
-    if (!potentialIsFixed_) {
-        balance(source, equation_.boundaryFlux());
+    if (directSolver* solver = direct()) {
+        Scalars source = cellCharge / permittivity_;
+        solver->addBoundaryValues(arrays().boundary, arrays().boundary.value, source);
+        Scalars values;
+        solver->solve(source, directSolver::Operator::finiteVolume, values);
+        std::copy(values.begin(), values.end(), electricPotential_.primitiveFieldRef().begin());
+        electricPotential_.correctBoundaryConditions();
+    } else {
+        scalarField source = sourceOf(cellCharge);
+        if (!potentialIsFixed_) {
+            balance(source, equation_.boundaryFlux());
+        }
+        equation_.solve(source);
     }
-    equation_.solve(source);
     partIsLatest_ = false;
     electricField_ = -equation_.gradient();
     forAll(chargeDensity_, cell)
@@ -159,9 +168,25 @@ void foamPoissonMesh::solve(const Scalars& cellCharge)
     chargeDensity_.writeOpt() = IOobject::AUTO_WRITE;
 }
 
+directSolver* foamPoissonMesh::direct()
+{
+    if (!directSought_ && numerics_.directSolve) {
+        direct_ = directSolver::create(arrays(), Pstream::parRun() ? MPI_COMM_WORLD : MPI_COMM_SELF);
+    }
+    directSought_ = true;
+    return direct_.get();
+}
+
+bool foamPoissonMesh::useMatchedOperator()
+{
+    matched_ = direct() != nullptr;
+    return matched_;
+}
+
 std::string foamPoissonMesh::description() const
 {
-    return std::to_string(returnReduce(mesh_.nCells(), sumOp<label>())) + " cells, " + equation_.description();
+    const std::string cells = std::to_string(returnReduce(mesh_.nCells(), sumOp<label>())) + " cells, ";
+    return cells + (direct_ ? std::string("direct solve by sine transforms") : equation_.description());
 }
 
 }  // namespace him

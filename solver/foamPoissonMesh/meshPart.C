@@ -105,12 +105,29 @@ void foamPoissonMesh::setBoundaryValues(const Scalars& boundaryValue)
 
 void foamPoissonMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
 {
-    scalarField source = sourceOf(cellCharge);
     setBoundaryValues(boundaryValue);
+    if (directSolver* solver = direct()) {
+        Scalars source = cellCharge / permittivity_;
+        if (!matched_) {
+            solver->addBoundaryValues(arrays().boundary, boundaryValue, source);
+        }
+        Scalars values;
+        solver->solve(source, matched_ ? directSolver::Operator::matched : directSolver::Operator::finiteVolume, values);
+        std::copy(values.begin(), values.end(), part().potential.primitiveFieldRef().begin());
+        part().potential.correctBoundaryConditions();
+        finishPart();
+        return;
+    }
+    scalarField source = sourceOf(cellCharge);
     if (!potentialIsFixed_) {
         balance(source, part().equation.boundaryFlux());
     }
     part().equation.solve(source);
+    finishPart();
+}
+
+void foamPoissonMesh::finishPart()
+{
     part().correction = dimensionedScalar(part().correction.dimensions(), Zero);
     part().corrections = 0;
     part().potential.writeOpt() = IOobject::AUTO_WRITE;
@@ -119,6 +136,17 @@ void foamPoissonMesh::solve(const Scalars& cellCharge, const Scalars& boundaryVa
 
 void foamPoissonMesh::correct(const Scalars& residual)
 {
+    if (directSolver* solver = direct()) {
+        Scalars values;
+        solver->solve(residual / permittivity_, directSolver::Operator::finiteVolume, values);
+        forAll(part().correction, cell)
+        {
+            part().correction[cell] += values[cell];
+        }
+        part().correction.correctBoundaryConditions();
+        part().correction.writeOpt() = IOobject::AUTO_WRITE;
+        return;
+    }
     scalarField source(mesh_.nCells());
     forAll(source, cell)
     {

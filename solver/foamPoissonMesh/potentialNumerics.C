@@ -110,6 +110,7 @@ potentialNumerics readPotentialNumerics(const Foam::fileName& casePath, const Fo
     if (correctors != notGiven) {
         numerics.nonOrthogonalCorrectors = correctors;
     }
+    numerics.directSolve = corrections.oneOf("directSolve", {"auto", "no"}, "auto") == "auto";
     corrections.refuseUnknownEntries();
     return numerics;
 }

@@ -46,7 +46,7 @@ snGradSchemes { default corrected; }
 
 SOLUTION = """
 solvers { electricPotential { solver PCG; preconditioner DIC; tolerance 1e-13; relTol 0; maxIter 2000; } }
-HIM { nNonOrthogonalCorrectors 0; }
+HIM { nNonOrthogonalCorrectors 0; directSolve no; }
 """
 
 BLOCK_MESH = """
