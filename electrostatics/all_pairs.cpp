@@ -5,7 +5,7 @@
 #include "electrostatics/point_checks.hpp"
 #include "electrostatics/require.hpp"
 
-#include <array>
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -51,29 +51,46 @@ std::int64_t addAllPairs(const Points& targets, const Points& sources, const Sca
     const Scalars y = padded(sources.col(1));
     const Scalars z = padded(sources.col(2));
     const Scalars q = padded(charges);
-    const SourceArrays arrays{x.data(), y.data(), z.data(), q.data(), nullptr, nullptr, nullptr};
-    const double coulombConstant = 1.0 / (4.0 * pi * permittivity);
-    const PairLimits noLimits{std::numeric_limits<double>::max(), 0.0};
+    const PointArrays arrays{x.data(), y.data(), z.data(), q.data(), nullptr, nullptr, nullptr};
+    const Scalars targetX = targets.col(0);
+    const Scalars targetY = targets.col(1);
+    const Scalars targetZ = targets.col(2);
+    const PointArrays targetArrays{targetX.data(), targetY.data(), targetZ.data(), nullptr, nullptr, nullptr, nullptr};
+    Points sum = Points::Zero(targets.rows(), 3);
+    Scalars sumOfPotential = Scalars::Zero(targets.rows());
+    const SumArrays sums{sum.col(0).data(), sum.col(1).data(), sum.col(2).data(), sumOfPotential.data()};
+    const PairLimits noLimits{std::numeric_limits<double>::max(), 0.0, 0.0, {}, {}};
+    const PairKernels::Law& law = runnablePairKernels().front()->coulomb;
 
     std::int64_t pairs = 0;
-    for (Index row = 0; row < targets.rows(); ++row) {
-        const Index self = selfRow < 0 ? -1 : selfRow + row;
-        const PairTarget target{targets.row(row).matrix(), Vector3::Zero(), 0.0};
-        // All rows before and after the target's own, and a spare entry.
-        std::array<RowRange, 3> ranges{};
-        int count = 0;
-        for (const RowRange& range : {RowRange{0, self}, RowRange{self + 1, sources.rows()}}) {
-            ranges[count] = range;
-            count += range.begin < range.end;
+    for (Index first = 0; first < targets.rows(); first += mostTargets) {
+        const int count = static_cast<int>(std::min<Index>(mostTargets, targets.rows() - first));
+        const Index self = selfRow + first;
+        PairCount found;
+        const auto add = [&](Index target, int targetCount, RowRange range) {
+            if (range.begin < range.end) {
+                found +=
+                    law.single(targetArrays.from(target), targetCount, sums.from(target), arrays, &range, 1, noLimits);
+            }
+        };
+        if (selfRow < 0) {
+            add(first, count, {0, sources.rows()});
+        } else {
+            add(first, count, {0, self});
+            add(first, count, {self + count, sources.rows()});
+            for (int n = 0; n < count; ++n) {  // the rows of the targets themselves, each without its own
+                add(first + n, 1, {self, self + n});
+                add(first + n, 1, {self + n + 1, self + count});
+            }
         }
-        const PairSum sum = sumCoulomb(arrays, ranges.data(), count, target, noLimits);
-        if (sum.coincident) {
-            throwSharedPosition(targets, row, sources, self);
+        for (int n = 0; found.coincident && n < count; ++n) {
+            refuseSharedPosition(targets, first + n, sources, selfRow < 0 ? -1 : self + n);
         }
-        field.row(row) += coulombConstant * sum.field.array().transpose();
-        potential[row] += coulombConstant * sum.potential;
-        pairs += sum.pairs;
+        pairs += found.pairs;
     }
+    const double coulombConstant = 1.0 / (4.0 * pi * permittivity);
+    field += coulombConstant * sum;
+    potential += coulombConstant * sumOfPotential;
     return pairs;
 }
 

@@ -15,6 +15,9 @@ namespace {
 /// Cells per point at most; where the reach asks for more, cells grow until they fit.
 constexpr double cellsPerPoint = 4.0;
 
+/// Points in one reach of a row of cells.
+constexpr double pointsPerReachAlong = 8.0;
+
 Box boundsOf(const Points& position, Index firstRow, Index rows)
 {
     Box bounds;
@@ -30,6 +33,14 @@ Box boundsOf(const Points& position, Index firstRow, Index rows)
 
 }  // namespace
 
+int LinkedCells::cellsPerReach(const Vector3& extent, Index points) const
+{
+    // As many points in a row of cells as the reach is long, wherever points are evenly spread.
+    const double reaches = (extent.array() / reach_).max(1.0).prod();
+    const double fitting = std::sqrt(static_cast<double>(points) / (reaches * pointsPerReachAlong));
+    return static_cast<int>(std::round(std::min(std::max(fitting, 1.0), double(mostCellsPerReach))));
+}
+
 void LinkedCells::layOut(const Box& bounds, double reach, Index points)
 {
     const double largest = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
@@ -38,7 +49,8 @@ void LinkedCells::layOut(const Box& bounds, double reach, Index points)
     origin_ = bounds.lower;
 
     const Vector3 extent = bounds.size();
-    const Vector3 finest(reach_ / cellsPerReachAlong, reach_ / cellsPerReach, reach_ / cellsPerReach);
+    const double across = reach_ / cellsPerReach(extent, points);
+    const Vector3 finest(reach_ / cellsPerReachAlong, across, across);
     const double allowed = cellsPerPoint * static_cast<double>(points);
     double growth = 1.0;
     while (true) {
@@ -68,10 +80,10 @@ Index LinkedCells::cellAlong(int axis, double coordinate) const
     return static_cast<Index>(cell > 0.0 ? (cell < last ? cell : last) : 0.0);
 }
 
-double LinkedCells::distanceToSlab(int axis, Index slab, double coordinate) const
+double LinkedCells::distanceToSlab(int axis, Index slab, const Box& box) const
 {
     const double lower = origin_[axis] + static_cast<double>(slab) * cellSize_[axis];
-    return std::max({0.0, lower - coordinate, coordinate - (lower + cellSize_[axis])});
+    return std::max({0.0, lower - box.upper[axis], box.lower[axis] - (lower + cellSize_[axis])});
 }
 
 void LinkedCells::build(const Points& position, Index firstRow, Index rows, double reach)
@@ -104,35 +116,35 @@ void LinkedCells::build(const Points& position, Index firstRow, Index rows, doub
     }
 }
 
-void LinkedCells::rangesAround(const Vector3& point, Ranges& out) const
+void LinkedCells::rangesAround(const Box& box, Ranges& out) const
 {
-    collect(point, cellAlong(2, point.z() - reach_), 0, out);
+    collect(box, cellAlong(2, box.lower.z() - reach_), 0, out);
 }
 
-void LinkedCells::rangesAfter(Index self, const Vector3& point, Ranges& out) const
+void LinkedCells::rangesFrom(Index firstPlace, const Box& box, Ranges& out) const
 {
-    collect(point, cellAlong(2, point.z()), self + 1, out);
+    collect(box, cellAlong(2, box.lower.z()), firstPlace, out);
 }
 
-void LinkedCells::collect(const Vector3& point, Index firstSlab, Index firstPlace, Ranges& out) const
+void LinkedCells::collect(const Box& box, Index firstSlab, Index firstPlace, Ranges& out) const
 {
     out.count = 0;
     if (order_.empty()) {
         return;
     }
-    const Index lastSlab = cellAlong(2, point.z() + reach_);
+    const Index lastSlab = cellAlong(2, box.upper.z() + reach_);
     for (Index iz = firstSlab; iz <= lastSlab; ++iz) {
-        const double dz = distanceToSlab(2, iz, point.z());
+        const double dz = distanceToSlab(2, iz, box);
         const double squaredWidth = std::max(reach_ * reach_ - dz * dz, 0.0);
         const double halfWidth = std::sqrt(squaredWidth) + margin_;
-        const Index firstRow = cellAlong(1, point.y() - halfWidth);
-        const Index lastRow = cellAlong(1, point.y() + halfWidth);
+        const Index firstRow = cellAlong(1, box.lower.y() - halfWidth);
+        const Index lastRow = cellAlong(1, box.upper.y() + halfWidth);
         for (Index iy = firstRow; iy <= lastRow; ++iy) {
-            const double dy = distanceToSlab(1, iy, point.y());
+            const double dy = distanceToSlab(1, iy, box);
             const double halfLength = std::sqrt(std::max(squaredWidth - dy * dy, 0.0)) + margin_;
             const Index row = (iz * count_[1] + iy) * count_[0];
-            const Index begin = cellStart_[row + cellAlong(0, point.x() - halfLength)];
-            const Index end = cellStart_[row + cellAlong(0, point.x() + halfLength) + 1];
+            const Index begin = cellStart_[row + cellAlong(0, box.lower.x() - halfLength)];
+            const Index end = cellStart_[row + cellAlong(0, box.upper.x() + halfLength) + 1];
             out.range[out.count] = {std::max(begin, firstPlace), end};
             out.count += out.range[out.count].begin < end;
         }

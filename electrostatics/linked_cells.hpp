@@ -15,11 +15,11 @@ namespace him {
 /// set of points is not larger.
 class LinkedCells {
 public:
-    /// Cells per reach across (y and z) and along the rows (x): finer cells reject more, shorter rows cost more.
-    static constexpr int cellsPerReach = 2;
+    /// Cells per reach across (y and z), at most, and along the rows (x): finer cells reject more, shorter rows cost more.
+    static constexpr int mostCellsPerReach = 4;
     static constexpr int cellsPerReachAlong = 8;
-    /// Rows of cells that a reach touches in y or z, one more for round-off.
-    static constexpr int rowsAcross = 2 * cellsPerReach + 2;
+    /// Rows of cells that a reach touches in y or z: around a box of one cell, one more for round-off.
+    static constexpr int rowsAcross = 2 * mostCellsPerReach + 3;
 
     /// Ranges of places, none of them empty. The array has a spare entry, which is written and not counted.
     struct Ranges {
@@ -36,16 +36,21 @@ public:
     /// Row of the input that stands at each place.
     const std::vector<std::int32_t>& order() const { return order_; }
 
-    /// All places that may lie within reach of a point.
-    void rangesAround(const Vector3& point, Ranges& out) const;
-    /// Of those only the ones after the place `self`, where the point itself stands.
-    void rangesAfter(Index self, const Vector3& point, Ranges& out) const;
+    /// Rows of cells in x, and where each begins among the places.
+    Index rowCount() const { return order_.empty() ? 0 : count_[1] * count_[2]; }
+    Index rowBegin(Index row) const { return cellStart_[row * count_[0]]; }
+
+    /// All places that may lie within reach of a point of the box.
+    void rangesAround(const Box& box, Ranges& out) const;
+    /// Of those only the places from `firstPlace` on, where `firstPlace` follows the places of points inside the box.
+    void rangesFrom(Index firstPlace, const Box& box, Ranges& out) const;
 
 private:
+    int cellsPerReach(const Vector3& extent, Index points) const;
     void layOut(const Box& bounds, double reach, Index points);
     Index cellAlong(int axis, double coordinate) const;
-    double distanceToSlab(int axis, Index slab, double coordinate) const;
-    void collect(const Vector3& point, Index firstSlab, Index firstPlace, Ranges& out) const;
+    double distanceToSlab(int axis, Index slab, const Box& box) const;
+    void collect(const Box& box, Index firstSlab, Index firstPlace, Ranges& out) const;
 
     Vector3 origin_ = Vector3::Zero();
     Vector3 cellSize_ = Vector3::Ones();       ///< [m]

@@ -5,6 +5,7 @@
 #include "electrostatics/point_checks.hpp"
 #include "electrostatics/require.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -47,54 +48,13 @@ void requireMatching(const ChargedPoints& points, bool withCellCentres)
     }
 }
 
-// What acts between two points: the kernel for one-sided pairs and the one for pairs of targets.
-
-struct CoulombLaw {
-    static constexpr bool cellCentres = false;
-    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
-                       const PairLimits& limits) const
-    {
-        return sumCoulomb(sources, ranges.range.data(), ranges.count, target, limits);
-    }
-    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
-                       const PairLimits& limits, const ReactionArrays& reaction) const
-    {
-        return sumMutualCoulomb(sources, ranges.range.data(), ranges.count, target, limits, reaction);
-    }
-};
-
-struct WithoutDoubleCount {
-    static constexpr bool cellCentres = true;
-    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
-                       const PairLimits& limits) const
-    {
-        return sumWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits);
-    }
-    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
-                       const PairLimits& limits, const ReactionArrays& reaction) const
-    {
-        return sumMutualWithoutDoubleCount(sources, ranges.range.data(), ranges.count, target, limits, reaction);
-    }
-};
-
-struct ScreenedLaw {
-    static constexpr bool cellCentres = false;
-    const ChargeCloud::Coefficients& cloud;
-    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
-                       const PairLimits& limits) const
-    {
-        return sumScreened(sources, ranges.range.data(), ranges.count, target, limits, cloud);
-    }
-    PairSum operator()(const SourceArrays& sources, const LinkedCells::Ranges& ranges, const PairTarget& target,
-                       const PairLimits& limits, const ReactionArrays& reaction) const
-    {
-        return sumMutualScreened(sources, ranges.range.data(), ranges.count, target, limits, cloud, reaction);
-    }
-};
+/// Targets that are summed together may lie apart by this share of the cutoff.
+constexpr double blockLength = 0.35;
 
 }  // namespace
 
-NearField::NearField(double cutoff, double permittivity) : cutoff_(cutoff), permittivity_(permittivity)
+NearField::NearField(double cutoff, double permittivity, const PairKernels& kernels)
+    : kernels_(kernels), cutoff_(cutoff), permittivity_(permittivity)
 {
     if (!std::isgreaterequal(cutoff, shortestCutoff) || !std::islessequal(cutoff, largestCoordinate)) {
         rejectArgument("near cutoff [m]", "> 0 (1e-40 to 1e50)", cutoff);
@@ -138,39 +98,71 @@ void NearField::sort(const ChargedPoints& points, bool withCellCentres)
     }
 }
 
-template <class Law> void NearField::sumAtTargets(const ChargedPoints& points, const Law& law, PairSumResult& result)
+PairLimits NearField::limits() const
+{
+    const double squared = cutoff_ * cutoff_;
+    return {squared, sameCellShare * sameCellShare * squared, 1.0 / squared, {}, {}};
+}
+
+NearField::TargetBlock NearField::blockFrom(Index first, Index end) const
+{
+    TargetBlock block{first, 0, Box()};
+    for (Index place = first; place < std::min<Index>(end, first + mostTargets); ++place) {
+        Box grown = block.box;
+        grown.extend({x_[place], y_[place], z_[place]});
+        if (block.count > 0 && grown.upper.x() - grown.lower.x() > blockLength * cutoff_) {
+            break;
+        }
+        block.box = grown;
+        ++block.count;
+    }
+    return block;
+}
+
+void NearField::sumAtTargets(const ChargedPoints& points, const PairKernels::Law& law, const PairLimits& limits,
+                             PairSumResult& result)
 {
     const Index targets = points.targets;
-    const PairLimits limits{cutoff_ * cutoff_, sameCellShare * sameCellShare * cutoff_ * cutoff_};
-    const SourceArrays sources{x_.data(), y_.data(), z_.data(), q_.data(), cellX_.data(), cellY_.data(), cellZ_.data()};
-    const SourceArrays others = sources.from(targets);
-    const ReactionArrays sums{fieldX_.data(), fieldY_.data(), fieldZ_.data(), sumOfPotential_.data()};
+    const PointArrays sources{x_.data(), y_.data(), z_.data(), q_.data(), cellX_.data(), cellY_.data(), cellZ_.data()};
+    const PointArrays others = sources.from(targets);
+    const SumArrays sums{fieldX_.data(), fieldY_.data(), fieldZ_.data(), sumOfPotential_.data()};
     for (Scalars* values : {&fieldX_, &fieldY_, &fieldZ_, &sumOfPotential_}) {
         values->head(targets + sourcePadding).setZero();
     }
 
     result.pairs = 0;
     LinkedCells::Ranges ranges;
-    for (Index place = 0; place < targets; ++place) {
-        PairTarget target{{x_[place], y_[place], z_[place]}, Vector3::Zero(), q_[place]};
-        if (Law::cellCentres) {
-            target.cellCentre = {cellX_[place], cellY_[place], cellZ_[place]};
+    for (Index row = 0; row < targets_.rowCount(); ++row) {
+        const Index end = targets_.rowBegin(row + 1);
+        for (Index first = targets_.rowBegin(row); first < end;) {
+            const TargetBlock block = blockFrom(first, end);
+            const PointArrays blockPoints = sources.from(first);
+            const SumArrays blockSums = sums.from(first);
+            // Every pair of targets once, for both, first those inside the block; the other sources act one-sided.
+            PairCount count;
+            for (int n = 0; n + 1 < block.count; ++n) {
+                const RowRange rest{first + n + 1, first + block.count};
+                count += law.mutual(blockPoints.from(n), 1, blockSums.from(n), sources, &rest, 1, limits, sums);
+            }
+            targets_.rangesFrom(first + block.count, block.box, ranges);
+            count += law.mutual(blockPoints, block.count, blockSums, sources, ranges.range.data(), ranges.count, limits,
+                                sums);
+            result.pairs += 2 * count.pairs;
+            if (others_.size() > 0) {
+                others_.rangesAround(block.box, ranges);
+                const PairCount single =
+                    law.single(blockPoints, block.count, blockSums, others, ranges.range.data(), ranges.count, limits);
+                result.pairs += single.pairs;
+                count += single;
+            }
+            if (count.coincident) {
+                for (Index place = first; place < first + block.count; ++place) {
+                    const Index target = targets_.order()[place];
+                    refuseSharedPosition(points.position, target, points.position, target);
+                }
+            }
+            first += block.count;
         }
-        // Every pair of targets once, for both; the other sources act on the target only.
-        targets_.rangesAfter(place, target.position, ranges);
-        const PairSum mutual = law(sources, ranges, target, limits, sums);
-        others_.rangesAround(target.position, ranges);
-        const PairSum single = law(others, ranges, target, limits);
-        if (mutual.coincident || single.coincident) {
-            const Index row = targets_.order()[place];
-            throwSharedPosition(points.position, row, points.position, row);
-        }
-        const Vector3 field = mutual.field + single.field;
-        fieldX_[place] += field.x();
-        fieldY_[place] += field.y();
-        fieldZ_[place] += field.z();
-        sumOfPotential_[place] += mutual.potential + single.potential;
-        result.pairs += 2 * mutual.pairs + single.pairs;
     }
 
     const double coulombConstant = 1.0 / (4.0 * pi * permittivity_);
@@ -187,13 +179,13 @@ template <class Law> void NearField::sumAtTargets(const ChargedPoints& points, c
 void NearField::coulomb(const ChargedPoints& points, PairSumResult& result)
 {
     sort(points, false);
-    sumAtTargets(points, CoulombLaw(), result);
+    sumAtTargets(points, kernels_.coulomb, limits(), result);
 }
 
 void NearField::coulombWithoutDoubleCount(const ChargedPoints& points, PairSumResult& result)
 {
     sort(points, true);
-    sumAtTargets(points, WithoutDoubleCount(), result);
+    sumAtTargets(points, kernels_.withoutDoubleCount, limits(), result);
 }
 
 void NearField::screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result)
@@ -203,8 +195,13 @@ void NearField::screened(const ChargedPoints& points, const ChargeCloud& cloud, 
         message << "the cloud radius must be the near cutoff, " << cutoff_ << " m, found " << cloud.radius() << " m";
         throw std::invalid_argument(message.str());
     }
+    const ChargeCloud::Coefficients& coefficients = cloud.coefficients();
+    PairLimits ofCloud = limits();
+    ofCloud.inverseSquaredRadius = coefficients.inverseSquaredRadius;
+    std::copy(coefficients.potential.begin(), coefficients.potential.end(), ofCloud.cloudPotential);
+    std::copy(coefficients.field.begin(), coefficients.field.end(), ofCloud.cloudField);
     sort(points, false);
-    sumAtTargets(points, ScreenedLaw{cloud.coefficients()}, result);
+    sumAtTargets(points, kernels_.screened[cloud.exponent() - 1], ofCloud, result);
 }
 
 }  // namespace him

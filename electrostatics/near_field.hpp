@@ -3,6 +3,7 @@
 
 #include "electrostatics/linked_cells.hpp"
 #include "electrostatics/p3m/cloud.hpp"
+#include "electrostatics/pair_kernels.hpp"
 #include "electrostatics/types.hpp"
 
 #include <cstdint>
@@ -38,7 +39,8 @@ class NearField {
 public:
     /// @param cutoff        r_c [m] in 1e-40..1e50; a pair counts when |x_i - x_k| <= r_c
     /// @param permittivity  eps > 0 [F/m]. Throws std::invalid_argument otherwise.
-    NearField(double cutoff, double permittivity);
+    /// @param kernels       one of runnablePairKernels()
+    NearField(double cutoff, double permittivity, const PairKernels& kernels = *runnablePairKernels().front());
 
     /// R29 over |x_i - x_k| <= r_c (S2.18 with a radius in place of whole cells): E_i = sum q_k (x_i - x_k)/(4 pi eps r^3),
     /// and the potential of the same pairs. Throws std::domain_error naming two rows that share a position.
@@ -59,10 +61,18 @@ public:
 
 private:
     void sort(const ChargedPoints& points, bool withCellCentres);
-    /// @param law  calls one of the kernels: law(sources, ranges, target, limits) or, for pairs of targets,
-    ///             law(sources, ranges, target, limits, reaction)
-    template <class Law> void sumAtTargets(const ChargedPoints& points, const Law& law, PairSumResult& result);
+    /// Consecutive targets of one row of linked cells that are summed together.
+    struct TargetBlock {
+        Index first;
+        int count;
+        Box box;
+    };
+    TargetBlock blockFrom(Index first, Index end) const;
+    PairLimits limits() const;
+    void sumAtTargets(const ChargedPoints& points, const PairKernels::Law& law, const PairLimits& limits,
+                      PairSumResult& result);
 
+    const PairKernels& kernels_;
     double cutoff_;
     double permittivity_;
     // Targets and the other sources in the order of their linked cells, the targets first. Every array is contiguous and

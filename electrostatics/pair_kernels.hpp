@@ -1,31 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "electrostatics/p3m/cloud.hpp"
-#include "electrostatics/types.hpp"
+// No Eigen here: the files of the kernels are compiled for instruction sets of their own, and an inline function of a
+// library must not be linked from there into the rest of the program.
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace him {
 
-/// Two points closer than this [m] count as one position; r^3 stays a normal number above it.
+/// Two points closer than this [m] count as one position; 1/r^3 stays a normal number above it.
 constexpr double smallestDistance = 1e-50;
 /// Coordinates and charges beyond this are refused; r^3 stays finite below it.
 constexpr double largestCoordinate = 1e50;
 
-/// Rows that the kernels compute together. They touch whole groups: sourcePadding more doubles must follow the last row of
-/// every array, readable and finite.
-constexpr int laneCount = 4;
-constexpr Index sourcePadding = laneCount - 1;
+/// The kernels compute up to this many rows together and touch whole groups: sourcePadding more doubles must follow the
+/// last row of every array, readable and finite.
+constexpr int mostLanes = 8;
+constexpr std::ptrdiff_t sourcePadding = mostLanes - 1;
+
+/// Targets that a kernel takes at once, so that every source is loaded once for all of them.
+constexpr int mostTargets = 4;
 
 /// Rows [begin, end) of the source arrays.
 struct RowRange {
-    Index begin;
-    Index end;
+    std::ptrdiff_t begin;
+    std::ptrdiff_t end;
 };
 
-/// Sources as contiguous arrays. The cell centres may be null for the plain Coulomb kernels.
-struct SourceArrays {
+/// Sources or targets as contiguous arrays. The cell centres may be null but for the kernels without double count.
+struct PointArrays {
     const double* x;  ///< [m]
     const double* y;
     const double* z;
@@ -35,7 +40,7 @@ struct SourceArrays {
     const double* cellZ;
 
     /// The same arrays from a later row on.
-    SourceArrays from(Index row) const
+    PointArrays from(std::ptrdiff_t row) const
     {
         const bool cells = cellX != nullptr;
         return {x + row,
@@ -48,59 +53,60 @@ struct SourceArrays {
     }
 };
 
-/// The point whose sums are wanted.
-struct PairTarget {
-    Vector3 position;    ///< [m]
-    Vector3 cellCentre;  ///< [m]
-    double charge;       ///< [C], used by the mutual kernels
-};
-
-/// Which pairs count.
-struct PairLimits {
-    double cutoffSquared;    ///< [m2], inclusive
-    double sameCellSquared;  ///< [m2] cell centres at most this far apart are one cell
-};
-
-/// Where the mutual kernels add what the target does to the sources, in the rows of the sources. The potential may be
-/// null for the kernel without double count.
-struct ReactionArrays {
-    double* x;  ///< [C/m2]
+/// Where the sums are added, without the factor 1/(4 pi eps). The kernels without double count leave the potential alone.
+struct SumArrays {
+    double* x;  ///< sum q d / r^3 [C/m2], d from source to target
     double* y;
     double* z;
-    double* potential;  ///< [C/m]
+    double* potential;  ///< sum q / r [C/m]
+
+    /// The same arrays from a later row on.
+    SumArrays from(std::ptrdiff_t row) const { return {x + row, y + row, z + row, potential + row}; }
 };
 
-/// Sums over the sources of one target, without the factor 1/(4 pi eps).
-struct PairSum {
-    Vector3 field = Vector3::Zero();  ///< sum q d / r^3 [C/m2], d from source to target
-    double potential = 0;             ///< sum q / r [C/m]
-    std::int64_t pairs = 0;           ///< sources within the cutoff
-    bool coincident = false;          ///< some source lies on the target; it is left out of the sums
+/// Which pairs count, and what the screened kernels take away.
+struct PairLimits {
+    double cutoffSquared;    ///< [m2], inclusive; the squared cloud radius for the screened kernels
+    double sameCellSquared;  ///< [m2] cell centres at most this far apart are one cell
+    /// Polynomials of a charge cloud in r^2/R^2, see ChargeCloud::Coefficients.
+    double inverseSquaredRadius;
+    double cloudPotential[4];
+    double cloudField[3];
 };
 
-/// Coulomb sum (R29) over the sources in the ranges that lie within the cutoff.
-PairSum sumCoulomb(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                   const PairLimits& limits);
+struct PairCount {
+    std::int64_t pairs = 0;   ///< that lie within the cutoff
+    bool coincident = false;  ///< some source lies on a target; it is left out of the sums
 
-/// The same, and every pair is used in both directions: the target's share goes to the reaction arrays.
-PairSum sumMutualCoulomb(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                         const PairLimits& limits, const ReactionArrays& reaction);
+    PairCount& operator+=(const PairCount& other)
+    {
+        pairs += other.pairs;
+        coincident |= other.coincident;
+        return *this;
+    }
+};
 
-/// Coulomb sum less the field between the cell centres of the same pairs (R31), in different cells only. No potential.
-PairSum sumWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
-                              const PairTarget& target, const PairLimits& limits);
+/// Adds the sums over the sources in the ranges, one to mostTargets targets at a time. The mutual kernels use every pair in
+/// both directions and add what the targets do to the sources to the rows of the sources.
+struct PairKernels {
+    using Single = PairCount (*)(const PointArrays& targets, int targetCount, const SumArrays& targetSums,
+                                 const PointArrays& sources, const RowRange* ranges, int rangeCount,
+                                 const PairLimits& limits);
+    using Mutual = PairCount (*)(const PointArrays& targets, int targetCount, const SumArrays& targetSums,
+                                 const PointArrays& sources, const RowRange* ranges, int rangeCount,
+                                 const PairLimits& limits, const SumArrays& sourceSums);
+    struct Law {
+        Single single;
+        Mutual mutual;
+    };
 
-/// The same in both directions.
-PairSum sumMutualWithoutDoubleCount(const SourceArrays& sources, const RowRange* ranges, int rangeCount,
-                                    const PairTarget& target, const PairLimits& limits, const ReactionArrays& reaction);
+    const char* instructionSet;
+    Law coulomb;             ///< R29
+    Law withoutDoubleCount;  ///< R29 less the field between the cell centres (R31) where these differ; no potential
+    Law screened[2];         ///< q d (1/r^3 - F), q (1/r - psi) for the cloud exponents 1 and 2
+};
 
-/// Sum of the short-range part of charge clouds: q d (1/r^3 - F(r)) and q (1/r - psi(r)). The cutoff is the cloud radius.
-PairSum sumScreened(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                    const PairLimits& limits, const ChargeCloud::Coefficients& cloud);
-
-/// The same in both directions.
-PairSum sumMutualScreened(const SourceArrays& sources, const RowRange* ranges, int rangeCount, const PairTarget& target,
-                          const PairLimits& limits, const ChargeCloud::Coefficients& cloud,
-                          const ReactionArrays& reaction);
+/// The kernels that this machine can run, the fastest first. Pairs at the cutoff are decided alike by all of them.
+const std::vector<const PairKernels*>& runnablePairKernels();
 
 }  // namespace him

@@ -22,7 +22,7 @@ void throwNotFinite(const char* what, Index row, double value)
     throw std::domain_error(message.str());
 }
 
-void throwSharedPosition(const Points& targets, Index target, const Points& sources, Index selfRow)
+void refuseSharedPosition(const Points& targets, Index target, const Points& sources, Index selfRow)
 {
     const Vector3 point = targets.row(target).matrix();
     Index nearest = -1;
@@ -33,6 +33,9 @@ void throwSharedPosition(const Points& targets, Index target, const Points& sour
             nearest = row;
             nearestSquared = squared;
         }
+    }
+    if (nearestSquared > smallestDistance * smallestDistance) {
+        return;
     }
     std::ostringstream message;
     if (selfRow >= 0) {

@@ -23,8 +23,9 @@ inline void requireFinite(const char* what, Index row, double value)
     }
 }
 
-/// Finds the source at the same position as a target, by brute force, and throws std::domain_error naming both rows.
+/// Looks for a source at the same position as a target, by brute force, and throws std::domain_error naming both rows if
+/// there is one.
 /// @param selfRow  row of the target among the sources, or -1
-[[noreturn]] void throwSharedPosition(const Points& targets, Index target, const Points& sources, Index selfRow);
+void refuseSharedPosition(const Points& targets, Index target, const Points& sources, Index selfRow);
 
 }  // namespace him

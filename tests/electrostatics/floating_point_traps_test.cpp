@@ -27,13 +27,17 @@ protected:
 
     static void runAll(const ChargedPoints& points, double cutoff)
     {
-        NearField near(cutoff, epsilon0);
-        PairSumResult result;
-        near.coulomb(points, result);
-        near.coulombWithoutDoubleCount(points, result);
-        for (const int exponent : {1, 2}) {
-            near.screened(points, ChargeCloud(cutoff, exponent), result);
+        for (const PairKernels* kernels : runnablePairKernels()) {
+            NearField near(cutoff, epsilon0, *kernels);
+            PairSumResult result;
+            near.coulomb(points, result);
             EXPECT_TRUE(result.field.isFinite().all());
+            near.coulombWithoutDoubleCount(points, result);
+            EXPECT_TRUE(result.field.isFinite().all());
+            for (const int exponent : {1, 2}) {
+                near.screened(points, ChargeCloud(cutoff, exponent), result);
+                EXPECT_TRUE(result.field.isFinite().all());
+            }
         }
         Points field = Points::Zero(points.targets, 3);
         Scalars potential = Scalars::Zero(points.targets);

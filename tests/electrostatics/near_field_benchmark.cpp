@@ -50,28 +50,38 @@ void report(benchmark::State& state, const PairSumResult& result, Index count)
         static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void coulomb(benchmark::State& state)
+/// @param sum  sum(nearField, points, result)
+template <class Sum> void timeNearSum(benchmark::State& state, const Sum& sum)
 {
     const ChargedPoints points = densePacking(state.range(0));
     NearField nearField(0.1 * static_cast<double>(state.range(1)) * diameter, epsilon0);
     PairSumResult result;
     for (auto step : state) {
-        nearField.coulomb(points, result);
+        sum(nearField, points, result);
         benchmark::DoNotOptimize(result.field.data());
     }
     report(state, result, points.targets);
 }
 
+void coulomb(benchmark::State& state)
+{
+    timeNearSum(state, [](NearField& near, const ChargedPoints& points, PairSumResult& result) {
+        near.coulomb(points, result);
+    });
+}
+
 void coulombWithoutDoubleCount(benchmark::State& state)
 {
-    const ChargedPoints points = densePacking(state.range(0));
-    NearField nearField(0.1 * static_cast<double>(state.range(1)) * diameter, epsilon0);
-    PairSumResult result;
-    for (auto step : state) {
-        nearField.coulombWithoutDoubleCount(points, result);
-        benchmark::DoNotOptimize(result.field.data());
-    }
-    report(state, result, points.targets);
+    timeNearSum(state, [](NearField& near, const ChargedPoints& points, PairSumResult& result) {
+        near.coulombWithoutDoubleCount(points, result);
+    });
+}
+
+template <int exponent> void screened(benchmark::State& state)
+{
+    timeNearSum(state, [](NearField& near, const ChargedPoints& points, PairSumResult& result) {
+        near.screened(points, ChargeCloud(near.cutoff(), exponent), result);
+    });
 }
 
 void allPairs(benchmark::State& state)
@@ -90,15 +100,16 @@ void allPairs(benchmark::State& state)
 void nearArguments(benchmark::internal::Benchmark* benchmark)
 {
     benchmark->ArgNames({"points", "tenthDiameters"})->Unit(benchmark::kMillisecond);
-    for (const std::int64_t points : {1000, 10000, 100000}) {
-        for (const std::int64_t cutoff : {25, 44}) {
-            benchmark->Args({points, cutoff});
-        }
+    // About 50, 150, 250 and 500 neighbours inside the packing.
+    for (const std::int64_t cutoff : {25, 36, 43, 54}) {
+        benchmark->Args({20000, cutoff});
     }
 }
 
 BENCHMARK(coulomb)->Apply(nearArguments);
 BENCHMARK(coulombWithoutDoubleCount)->Apply(nearArguments);
+BENCHMARK(screened<1>)->Apply(nearArguments);
+BENCHMARK(screened<2>)->Apply(nearArguments);
 BENCHMARK(allPairs)->ArgName("points")->Arg(10000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

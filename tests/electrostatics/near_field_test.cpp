@@ -209,7 +209,9 @@ TEST(NearField, correctionLeavesPairsOfOneCellAlone)
     ChargedPoints points = randomPoints(60, 0.1, 0.1, 0.1, 18);
     points.cellCentre.setConstant(60, 3, 0.05);
     points.cellCentre.row(7) += 1e-14;  // round-off in a centre does not make another cell
-    EXPECT_TRUE((coulombWithoutDoubleCount(points, 1.0).field == coulomb(points, 1.0).field).all());
+    const Points difference = coulombWithoutDoubleCount(points, 1.0).field - coulomb(points, 1.0).field;
+    const Scalars scale = bruteForce(points, 1.0, epsilon0, false).fieldScale;
+    EXPECT_LE((difference.matrix().rowwise().norm().array() / scale).maxCoeff(), 4e-16);  // round-off of one product
 }
 
 TEST(NearField, correctionOfTwoCellsIsTheFieldBetweenTheirCentres)
