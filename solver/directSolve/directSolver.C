@@ -87,6 +87,31 @@ Lattice latticeOf(const MeshArrays& mesh, MPI_Comm communicator)
     return lattice;
 }
 
+/// Whether every wall face of this rank lies on a side of the box; others are baffles inside it.
+bool wallsAreSides(const BoundaryFaces& faces, const Lattice& lattice)
+{
+    for (Index face = 0; face < faces.size(); ++face) {
+        const Vector3 normal = faces.normal.row(face).matrix().transpose();
+        const int axis = axisOf(normal);
+        const double length = lattice.size[axis] * lattice.count[static_cast<std::size_t>(axis)];
+        const double side = lattice.lower[axis] + (normal[axis] > 0 ? length : 0);
+        if (std::abs(faces.centre(face, axis) - side) > 1e3 * uniformity * lattice.size[axis]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// As many faces as a box of whole cells has: neighbours share one face, and all of them do. Collective.
+bool facesAreComplete(const MeshArrays& mesh, const Lattice& lattice, MPI_Comm communicator)
+{
+    const auto [nx, ny, nz] = lattice.count;
+    const double sides = 2.0 * (static_cast<double>(nx) * ny + static_cast<double>(ny) * nz + static_cast<double>(nz) * nx);
+    const double inner = 2 * static_cast<double>(mesh.internal.size()) + static_cast<double>(mesh.coupled.size());
+    return reduced(static_cast<double>(mesh.boundary.size()), MPI_SUM, communicator) == sides
+           && reduced(inner, MPI_SUM, communicator) == 6.0 * nx * ny * nz - sides;
+}
+
 /// Place of every cell on the lattice, x fastest; empty when one of them does not fit.
 std::vector<std::int32_t> placesOf(const MeshArrays& mesh, const Lattice& lattice)
 {
@@ -155,8 +180,8 @@ std::unique_ptr<directSolver> directSolver::create(const MeshArrays& mesh, MPI_C
         return nullptr;
     }
     std::vector<std::int32_t> places = placesOf(mesh, lattice);
-    const bool fits = static_cast<Index>(places.size()) == mesh.cells();
-    if (reduced(fits ? 1 : 0, MPI_MIN, communicator) == 0) {
+    const bool fits = static_cast<Index>(places.size()) == mesh.cells() && wallsAreSides(mesh.boundary, lattice);
+    if (!facesAreComplete(mesh, lattice, communicator) || reduced(fits ? 1 : 0, MPI_MIN, communicator) == 0) {
         return nullptr;
     }
     std::unique_ptr<directSolver> solver(new directSolver(lattice.count, lattice.size, std::move(places), communicator));

@@ -2,10 +2,12 @@
 #include "foamPoissonMesh/foamPoissonMesh.H"
 
 #include "foamPoissonMesh/conversions.H"
+#include "foamPoissonMesh/meshArrays.H"
 #include "foamPoissonMesh/meshPart.H"
 #include "settings/checkedDictionary.H"
 
 #include "extrapolatedCalculatedFvPatchFields.H"
+#include "processorPolyPatch.H"
 
 #include <stdexcept>
 
@@ -34,6 +36,17 @@ Box boundsOf(const pointField& points)
         bounds.extend(toEigen(p));
     }
     return bounds;
+}
+
+/// Whether the mesh ends at conductors only, on all ranks.
+bool onlyConductors(const volScalarField& potential)
+{
+    bool conductors = true;
+    for (const fvPatchScalarField& patch : potential.boundaryField()) {
+        const bool betweenRanks = isA<processorPolyPatch>(patch.patch().patch());
+        conductors = conductors && (betweenRanks || (!patch.coupled() && isConductor(patch)));
+    }
+    return returnReduce(conductors, andOp<bool>());
 }
 
 /// Largest distance between two points of one cell, over all ranks [m].
@@ -170,7 +183,7 @@ void foamPoissonMesh::solve(const Scalars& cellCharge)
 
 directSolver* foamPoissonMesh::direct()
 {
-    if (!directSought_ && numerics_.directSolve) {
+    if (!directSought_ && numerics_.directSolve && onlyConductors(electricPotential_)) {
         direct_ = directSolver::create(arrays(), Pstream::parRun() ? MPI_COMM_WORLD : MPI_COMM_SELF);
     }
     directSought_ = true;

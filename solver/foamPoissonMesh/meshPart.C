@@ -7,6 +7,8 @@
 #include "fixedGradientFvPatchFields.H"
 #include "fixedValueFvPatchFields.H"
 
+#include <stdexcept>
+
 namespace him {
 
 namespace {
@@ -81,6 +83,11 @@ foamPoissonMesh::meshPart& foamPoissonMesh::part()
 const MeshArrays& foamPoissonMesh::arrays() const
 {
     if (!arrays_) {
+        Complaints complaints;
+        refuseOtherConditions(electricPotential_, complaints);
+        if (!complaints.none()) {
+            throw std::runtime_error(complaints.text());
+        }
         arrays_ = std::make_unique<MeshArrays>(makeMeshArrays(electricPotential_));
     }
     updateVoltages(electricPotential_, *arrays_);
@@ -107,6 +114,9 @@ void foamPoissonMesh::solve(const Scalars& cellCharge, const Scalars& boundaryVa
 {
     setBoundaryValues(boundaryValue);
     if (directSolver* solver = direct()) {
+        if (matched_ && returnReduce(bool((boundaryValue != 0).any()), orOp<bool>())) {
+            throw std::logic_error("the matched operator knows walls at 0 V only");
+        }
         Scalars source = cellCharge / permittivity_;
         if (!matched_) {
             solver->addBoundaryValues(arrays().boundary, boundaryValue, source);
