@@ -147,16 +147,14 @@ std::vector<FieldSettings> settingsOf(const std::vector<comparedMethod>& methods
     return list;
 }
 
-void describeCase(const snapshot& s, MPI_Comm communicator, comparison& result)
+std::string describeMesh(const snapshot& s)
 {
-    MPI_Comm_size(communicator, &result.ranks);
-    if (s.poisson) {
-        result.cellSize = s.cellSize;
-        result.mesh = s.poisson->description();
-        if (result.mesh.empty()) {
-            result.mesh = std::to_string(Foam::returnReduce(s.mesh().nCells(), Foam::sumOp<Foam::label>())) + " cells";
-        }
+    if (!s.poisson) {
+        return {};
     }
+    const std::string text = s.poisson->description();
+    const Foam::label cells = Foam::returnReduce(s.mesh().nCells(), Foam::sumOp<Foam::label>());
+    return text.empty() ? std::to_string(cells) + " cells" : text;
 }
 
 }  // namespace
@@ -166,7 +164,8 @@ comparison compareMethods(snapshot& s, const particleTable& table, const particl
 {
     comparison result;
     result.particles = shares.total();
-    describeCase(s, communicator, result);
+    result.cellSize = s.cellSize;
+    MPI_Comm_size(communicator, &result.ranks);
     result.methods = wanted(s, options, shares.total());
     const referenceField reference = findReference(s, table, shares, settingsOf(result.methods), communicator);
     result.reference = reference.description;
@@ -203,6 +202,7 @@ comparison compareMethods(snapshot& s, const particleTable& table, const particl
             result.methods[n].warm = medianOf(trials[n].warm);
         }
     }
+    result.mesh = describeMesh(s);  // by now it is known whether the mesh is solved directly
     return result;
 }
 

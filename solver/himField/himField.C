@@ -21,10 +21,10 @@ SourceFiles
     comparison.C
     comparisonReport.C
     comparisonTable.C
+    knownSpaces.C
     meshWalls.C
     particleShares.C
     particleTable.C
-    rectangularBox.C
     referenceField.C
     snapshot.C
     timedMethod.C

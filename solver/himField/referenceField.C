@@ -5,6 +5,7 @@
 #include "settings/checkedDictionary.H"
 
 #include "electrostatics/reference/grounded_box.hpp"
+#include "electrostatics/reference/grounded_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,22 @@ referenceField exactInBox(const snapshot& s, const BoxSides& sides, const partic
             box.computeAt(table.position, table.charge, rowsOf(table.position, reference.rows), reference.rows,
                           reference.field, potential);
         }
+        reference.field.rowwise() += s.choices.selected.externalField.transpose().array();
+    }
+    return reference;
+}
+
+referenceField exactInSphere(const snapshot& s, const sphericalSpace& sphere, const particleTable& table, Index total)
+{
+    referenceField reference;
+    reference.description = "the exact field of the sphere (Kelvin images; the mesh has flat faces)";
+    reference.rows = judgedRows(total);
+    if (Foam::Pstream::master()) {
+        Points all;
+        Scalars potential;
+        computeInGroundedSphere(sphere.centre, sphere.radius, s.choices.selected.permittivity, table.position,
+                                table.charge, all, potential);
+        reference.field = rowsOf(all, reference.rows);
         reference.field.rowwise() += s.choices.selected.externalField.transpose().array();
     }
     return reference;
@@ -120,6 +137,9 @@ referenceField findReference(snapshot& s, const particleTable& table, const part
 {
     if (const std::optional<BoxSides> sides = rectangularBox(s)) {
         return exactInBox(s, *sides, table, shares.total());
+    }
+    if (const std::optional<sphericalSpace> sphere = groundedSphere(s); sphere && shares.total() <= judgeAll) {
+        return exactInSphere(s, *sphere, table, shares.total());
     }
     if (!s.poisson && !s.periodic[0] && !s.periodic[1] && !s.periodic[2]) {
         FieldSettings all = s.choices.selected;

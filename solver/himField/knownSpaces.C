@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "himField/snapshot.H"
 
+#include "processorPolyPatch.H"
+
 #include <algorithm>
 #include <cmath>
 
@@ -75,6 +77,29 @@ std::optional<BoxSides> rectangularBox(const snapshot& s)
         }
     }
     return fits ? std::optional<BoxSides>(sides) : std::nullopt;
+}
+
+std::optional<sphericalSpace> groundedSphere(const snapshot& s)
+{
+    if (!s.poisson) {
+        return {};
+    }
+    sphericalSpace sphere;
+    sphere.centre = 0.5 * (s.box.lower + s.box.upper);
+    sphere.radius = 0.5 * s.box.size().maxCoeff();
+    const Foam::point centre(sphere.centre.x(), sphere.centre.y(), sphere.centre.z());
+    bool fits = true;
+    for (const Foam::fvPatchScalarField& potential : s.poisson->electricPotential().boundaryField()) {
+        const Foam::polyPatch& patch = potential.patch().patch();
+        if (Foam::isA<Foam::processorPolyPatch>(patch)) {
+            continue;
+        }
+        fits = fits && (patch.empty() || (!potential.coupled() && conditionOf(potential) == groundedBit));
+        for (const Foam::point& point : patch.localPoints()) {
+            fits = fits && std::abs(Foam::mag(point - centre) / sphere.radius - 1) < tolerance;
+        }
+    }
+    return Foam::returnReduce(fits, Foam::andOp<bool>()) ? std::optional<sphericalSpace>(sphere) : std::nullopt;
 }
 
 }  // namespace him
