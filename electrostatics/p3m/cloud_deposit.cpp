@@ -3,6 +3,8 @@
 
 #include "electrostatics/constants.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <cstring>
 
 // One binary serves every x86-64 processor: the loader picks the widest version that the machine has.
@@ -136,6 +138,39 @@ void CloudDeposit::addCloud(const CloudSources& sources, Index row, bool normali
     charge_.head(loaded_) += sources.charge[row] * scale * cloud_.head(loaded_);
 }
 
+void CloudDeposit::addCloudWithoutMoment(const CloudSources& sources, Index row, Index cells)
+{
+    const auto r = static_cast<std::size_t>(row);
+    const double inverse = 1.0 / radius_;
+    samples_.clear();
+    Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
+    const auto addSource = [&](const Vector3& centre, const Image* image) {
+        for (Index n = 0; n < cells; ++n) {
+            Vector3 offset = inverse * (Vector3(x_[n], y_[n], z_[n]) - centre);
+            const double m = 1 - offset.squaredNorm();
+            if (m <= 0) {
+                continue;
+            }
+            if (image) {
+                offset = image->mirroredBack(offset, table_.planes());
+            }
+            const double weight = volume_[n] * (exponent_ == 1 ? m : m * m);
+            samples_.push_back({n, weight, image ? image->sign : 1.0, offset});
+            const Eigen::Vector4d basis(1, offset[0], offset[1], offset[2]);
+            moments += weight * basis * basis.transpose();
+        }
+    };
+    addSource(sources.position.row(row).matrix().transpose(), nullptr);
+    for (auto n = static_cast<std::size_t>(sources.firstImage[r]); n < static_cast<std::size_t>(sources.firstImage[r + 1]); ++n) {
+        addSource(sources.images[n].position, &sources.images[n]);
+    }
+    const Eigen::Vector4d factor = moments.ldlt().solve(Eigen::Vector4d::UnitX());
+    for (const Sample& sample : samples_) {
+        charge_[sample.cell] += sources.charge[row] * sample.sign * sample.weight
+                                * (factor[0] + factor.tail<3>().dot(sample.offset));
+    }
+}
+
 void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
 {
     cellCharge.setZero(mesh_.ownCells);
@@ -145,7 +180,11 @@ void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
         const Surroundings& around = table_.of(host);
         loadCells(around);
         for (; row < sources.size() && sources.cell[static_cast<std::size_t>(row)] == host; ++row) {
-            addCloud(sources, row, !around.wallWithoutImage);
+            if (around.inexactWall && !around.wallWithoutImage) {
+                addCloudWithoutMoment(sources, row, around.count);
+            } else {
+                addCloud(sources, row, !around.wallWithoutImage);
+            }
         }
         const double* charge = charge_.data();
         for (const RowRange& range : around.cells) {

@@ -8,7 +8,9 @@ namespace him {
 /// Samples the clouds g = c (1 - (r/R)^2)^k of charges and their images at the cell centres. The weights
 /// w_c = V_c g(|x_c - x_j|) of a charge and its own images are divided by their sum T_j, so that its charge on the mesh is
 /// exact however few cells the cloud sees; where a wall in reach has no image, only the part of the cloud inside the mesh
-/// counts and c alone scales it.
+/// counts and c alone scales it. Near curved walls, where tangent planes mirror, the weights are multiplied by
+/// a + b.(x_c - x_j)/R as well, so that neither charge nor dipole moment of the cloud with its images changes by sampling
+/// (image offsets mirrored back).
 class CloudDeposit {
 public:
     /// @param mesh, table  outlive this
@@ -22,6 +24,7 @@ public:
 private:
     void loadCells(const Surroundings& around);
     void addCloud(const CloudSources& sources, Index row, bool normalise);
+    void addCloudWithoutMoment(const CloudSources& sources, Index row, Index cells);
 
     const LocalMesh& mesh_;
     SurroundingsTable& table_;
@@ -31,6 +34,13 @@ private:
     Scalars cellX_, cellY_, cellZ_, cellVolume_;  ///< of all cells of the local mesh, padded
     Index loaded_ = 0;                            ///< cells around the present host, in whole blocks
     Scalars x_, y_, z_, volume_;                  ///< of these cells, one after the other
+    struct Sample {
+        Index cell;      ///< among the cells around the host
+        double weight;   ///< [m3]
+        double sign;
+        Vector3 offset;  ///< from the source, over R, mirrored back for an image
+    };
+    std::vector<Sample> samples_;
     Scalars cloud_, charge_;                      ///< at these cells: weights of one charge, charge of all in the host
 };
 

@@ -187,8 +187,11 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
                 continue;
             }
             wallPlanes.push_back(planeOfFace_[static_cast<std::size_t>(face)]);
-            if (!exact_[static_cast<std::size_t>(face)] && face < mesh_.ownFaces) {
-                around->unmirrored.push_back(face);
+            if (!exact_[static_cast<std::size_t>(face)]) {
+                around->inexactWall = true;
+                if (face < mesh_.ownFaces) {
+                    around->unmirrored.push_back(face);
+                }
             }
         }
     }
@@ -230,30 +233,44 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
     return around;
 }
 
+Vector3 Image::mirroredBack(Vector3 offset, const std::vector<WallPlane>& planes) const
+{
+    for (auto mirror = mirrors.rbegin(); mirror != mirrors.rend(); ++mirror) {
+        if (*mirror >= 0) {
+            const Vector3& normal = planes[static_cast<std::size_t>(*mirror)].normal;
+            offset -= 2 * offset.dot(normal) * normal;
+        }
+    }
+    return offset;
+}
+
 int imagesOf(const Vector3& position, const Surroundings& around, const std::vector<WallPlane>& planes, double cloudRadius,
              Image* images)
 {
     if (around.planes.empty()) {
         return 0;
     }
-    std::array<const WallPlane*, 3> chosen{};
+    std::array<std::int32_t, 3> chosen{-1, -1, -1};
+    const auto normalOf = [&](int n) -> const Vector3& {
+        return planes[static_cast<std::size_t>(chosen[static_cast<std::size_t>(n)])].normal;
+    };
     int count = 0;
     while (count < 3) {
-        const WallPlane* nearest = nullptr;
+        std::int32_t nearest = -1;
         double least = cloudRadius;
         for (const std::int32_t n : around.planes) {
             const WallPlane& plane = planes[static_cast<std::size_t>(n)];
             const double distance = plane.distance(position);
             bool free = distance < least;
             for (int other = 0; free && other < count; ++other) {
-                free = std::abs(plane.normal.dot(chosen[static_cast<std::size_t>(other)]->normal)) < sameWall;
+                free = std::abs(plane.normal.dot(normalOf(other))) < sameWall;
             }
             if (free) {
-                nearest = &plane;
+                nearest = n;
                 least = distance;
             }
         }
-        if (!nearest) {
+        if (nearest < 0) {
             break;
         }
         chosen[static_cast<std::size_t>(count++)] = nearest;
@@ -261,22 +278,23 @@ int imagesOf(const Vector3& position, const Surroundings& around, const std::vec
 
     // Every image so far is mirrored in the next plane as well, when all its planes are perpendicular to that one.
     int made = 0;
-    std::array<int, mostImages> mirrors{};  // bits of the planes of each image
     for (int n = 0; n < count; ++n) {
-        const WallPlane& plane = *chosen[static_cast<std::size_t>(n)];
+        const std::int32_t next = chosen[static_cast<std::size_t>(n)];
+        const WallPlane& plane = planes[static_cast<std::size_t>(next)];
         const int before = made;
-        images[made] = {plane.mirror(position), plane.sign};
-        mirrors[static_cast<std::size_t>(made++)] = 1 << n;
+        images[made++] = {plane.mirror(position), plane.sign, {next, -1, -1}};
         for (int other = 0; other < before; ++other) {
+            Image image = images[other];
             bool square = true;
-            for (int bit = 0; bit < n; ++bit) {
-                if (mirrors[static_cast<std::size_t>(other)] & (1 << bit)) {
-                    square = square && std::abs(chosen[static_cast<std::size_t>(bit)]->normal.dot(plane.normal)) < perpendicular;
-                }
+            auto free = image.mirrors.begin();
+            for (; *free >= 0; ++free) {
+                square = square && std::abs(planes[static_cast<std::size_t>(*free)].normal.dot(plane.normal)) < perpendicular;
             }
             if (square) {
-                images[made] = {plane.mirror(images[other].position), images[other].sign * plane.sign};
-                mirrors[static_cast<std::size_t>(made++)] = mirrors[static_cast<std::size_t>(other)] | (1 << n);
+                *free = next;
+                image.position = plane.mirror(image.position);
+                image.sign *= plane.sign;
+                images[made++] = image;
             }
         }
     }

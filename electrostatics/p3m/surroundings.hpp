@@ -4,6 +4,7 @@
 #include "electrostatics/p3m/local_mesh.hpp"
 #include "electrostatics/pair_kernels.hpp"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Surroundings {
     Index count = 0;                          ///< cells in all of these
     std::vector<std::int32_t> planes;         ///< planes in which its charges may be mirrored
     std::vector<std::int32_t> unmirrored;     ///< own boundary faces whose value the images do not make zero
+    bool inexactWall = false;                 ///< some boundary face in reach is not mirrored exactly (curved walls, wedges)
     bool wallWithoutImage = false;            ///< some boundary face in reach lies in none of the planes
     bool hides = false;                       ///< some cell in reach of the cloud cannot be walked to
     bool reaches(Index cell) const;           ///< whether the cell is among `cells`
@@ -78,8 +80,12 @@ private:
 /// Images of a charge: mirrored in up to three planes that its cloud touches, the nearest first, and in the edges (3) and
 /// corners (7) of those that are perpendicular.
 struct Image {
-    Vector3 position;  ///< [m]
-    double sign;       ///< image charge over charge
+    Vector3 position;                      ///< [m]
+    double sign;                           ///< image charge over charge
+    std::array<std::int32_t, 3> mirrors;   ///< planes that made it, one after the other, -1 behind the last
+
+    /// The vector that the mirrors turn into `offset`.
+    Vector3 mirroredBack(Vector3 offset, const std::vector<WallPlane>& planes) const;
 };
 constexpr int mostImages = 7;
 /// @return number of images written
