@@ -87,6 +87,32 @@ void checkCutoff(const FieldSettings& settings, const PoissonMesh* mesh, const B
     }
 }
 
+/// Fewer cells than this sample a cloud too coarsely (field errors of 8 % and more).
+constexpr double fewestCloudCells = 1.75;
+
+void checkP3m(const P3mSettings& settings, const Box& demBox, const std::array<bool, 3>& periodic, Complaints& complaints)
+{
+    const std::string entries = std::string(file) + ".p3mCoeffs.";
+    std::ostringstream text;
+    if (settings.cloudRadius <= 0 && !(settings.cloudCells >= fewestCloudCells)) {
+        text << "a cloud radius of " << settings.cloudCells << " cells is too small: the mesh samples such a cloud too coarsely. Use at least "
+             << fewestCloudCells << "; 2 is the default, 3 or 4 are more accurate";
+        complaints.add(entries + "cloudCells", text.str());
+    }
+    if (settings.cloudExponent < 0 || settings.cloudExponent > 2) {
+        complaints.add(entries + "cloudExponent", std::to_string(settings.cloudExponent)
+                                                      + " is not known; known: 1, 2, and 0 to choose by the radius");
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (periodic[static_cast<std::size_t>(axis)] && settings.cloudRadius > demBox.size()[axis]) {
+            std::ostringstream tooLong;
+            tooLong << settings.cloudRadius << " m is longer than the periodic DEM box in "
+                    << "xyz"[axis] << ", " << demBox.size()[axis] << " m. Use at most that, or a larger box";
+            complaints.add(entries + "cloudRadius", tooLong.str());
+        }
+    }
+}
+
 }  // namespace
 
 const std::vector<std::string>& FieldMethod::names()
@@ -130,6 +156,9 @@ Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* 
         complaints.add(entry, settings.method
                                   + " needs a mesh, and the case has none. Make one in constant/polyMesh, or use "
                                     "pairwiseSum or directTruncation");
+    }
+    if (settings.method == "p3m") {
+        checkP3m(settings.p3m, demBox, periodic, complaints);
     }
     if (method->needsCutoff) {
         checkCutoff(settings, method->needsMesh ? mesh : nullptr, demBox, periodic, complaints);

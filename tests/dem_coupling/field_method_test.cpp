@@ -286,4 +286,21 @@ TEST(FieldMethod, reportsAllComplaintsTogether)
 }
 
 }  // namespace
+TEST(Settings, ofP3mAreRefusedTogetherWithTheAllowedValues)
+{
+    const BoxMesh mesh(box, cells, epsilon0, MPI_COMM_SELF);
+    FieldSettings settings = settingsOf("p3m");
+    EXPECT_TRUE(FieldMethod::check(settings, &mesh, box, open).none());
+    settings.p3m.cloudCells = 1.5;
+    settings.p3m.cloudExponent = 3;
+    const std::string text = FieldMethod::check(settings, &mesh, box, open).text();
+    expectContains(text, "p3mCoeffs.cloudCells: a cloud radius of 1.5 cells is too small");
+    expectContains(text, "Use at least 1.75");
+    expectContains(text, "p3mCoeffs.cloudExponent: 3 is not known; known: 1, 2");
+    settings = settingsOf("p3m");
+    settings.p3m.cloudRadius = 0.05;
+    expectContains(FieldMethod::check(settings, &mesh, box, {true, false, false}).text(),
+                   "p3mCoeffs.cloudRadius: 0.05 m is longer than the periodic DEM box in x, 0.04 m");
+}
+
 }  // namespace him

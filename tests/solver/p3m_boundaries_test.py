@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""p3m on OpenFOAM meshes with every condition of the potential: its field against one on a much finer mesh, against symmetry,
+and against the field of other ways to pose the same problem. The cube has an edge of 0.1 m."""
+
+import csv
+import math
+import pathlib
+import random
+import tempfile
+import unittest
+
+from tiny_case import TinyCase
+
+FINE = "p3mCoeffs { cloudCells 3; gather quartic; deferredCorrection yes; }\n"
+
+
+def charges(count, seed=1, lower=0.004, upper=0.096):
+    dice = random.Random(seed)
+    return [tuple(dice.uniform(lower, upper) for _ in range(3)) + (dice.choice((-1, 1)) * 1e-9,) for _ in range(count)]
+
+
+def difference(a, b):
+    """Root mean square difference of two fields over that of the second."""
+    gap = sum((x - y) ** 2 for p, q in zip(a, b) for x, y in zip(p[:3], q[:3]))
+    return math.sqrt(gap / sum(x ** 2 for p in b for x in p[:3]))
+
+
+class Boundaries(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.cases = 0
+
+    def case(self, cells=(20, 20, 20), conditions=None, mesh=None, coefficients=FINE):
+        """`conditions`: of the patches, by name; `mesh`: changes to blockMeshDict, (old, new) pairs."""
+        self.cases += 1
+        case = TinyCase(self.folder / str(self.cases), method="p3m", cells=cells)
+        case.write("system/fvSolution", "solvers { electricPotential { solver PCG; preconditioner DIC; tolerance 1e-9; maxIter 2000; } }")
+        case.write("constant/electrostaticProperties", "fieldMethod p3m;\n" + coefficients)
+        for old, new in mesh or ():
+            case.replace("system/blockMeshDict", old, new)
+        if mesh:
+            case.tool("blockMesh")
+        if conditions:
+            entries = "\n".join(f"{name} {{ {text} }}" for name, text in conditions.items())
+            case.write("0/electricPotential", "dimensions [1 2 -3 0 0 -1 0]; internalField uniform 0; boundaryField { %s }" % entries,
+                       "volScalarField")
+        return case
+
+    def field(self, case, particles, ranks=1):
+        lines = ["%r,%r,%r,%r" % particle for particle in particles]
+        (case.path / "particles.csv").write_text("x,y,z,q\n" + "\n".join(lines) + "\n")
+        if ranks > 1:
+            case.decompose(ranks)
+        result = case.run("-particles", "particles.csv", "-output", "field.csv", ranks=ranks, program="himField")
+        self.assertEqual(result.code, 0, result.text)
+        with open(case.path / "field.csv", newline="") as table:
+            return [tuple(float(row[name]) for name in ("Ex", "Ey", "Ez", "V")) for row in csv.DictReader(table)]
+
+    def test_voltage_of_a_wall_adds_the_field_of_the_plates(self):
+        insulated = {"bottom": "type fixedValue; value uniform 0;", "top": "type fixedValue; value uniform 200;",
+                     "sides": "type zeroGradient;"}
+        grounded = dict(insulated, top="type fixedValue; value uniform 0;")
+        some = [(x, y, z, 1e-4 * q) for x, y, z, q in charges(40)]  # errors of their own field must not count
+        with_voltage = self.field(self.case(conditions=insulated), some)
+        without = self.field(self.case(conditions=grounded), some)
+        for a, b, particle in zip(with_voltage, without, some):
+            self.assertAlmostEqual(a[2] - b[2], -200 / 0.1, delta=1e-3 * 2000)
+            self.assertAlmostEqual(a[3] - b[3], 200 * particle[2] / 0.1, delta=1e-3 * 200)
+            self.assertLess(math.hypot(a[0] - b[0], a[1] - b[1]), 1e-3 * 2000)
+
+    def test_insulated_side_acts_like_the_mirrored_half_of_a_twice_as_wide_box(self):
+        # The sides at y = 0 and y = 0.1 stay grounded in both boxes; x = 0.1 is insulated in the small one.
+        split = [("sides  { type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }",
+                  "sides { type wall; faces ((0 4 7 3) (0 1 5 4) (3 7 6 2)); }\n    open { type %s; faces ((1 2 6 5)); }")]
+        ground = "type fixedValue; value uniform 0;"
+        wide = [("vertices ((0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1));",
+                 "vertices ((0 0 0) (2 0 0) (2 1 0) (0 1 0) (0 0 1) (2 0 1) (2 1 1) (0 1 1));")]
+        some = charges(40, seed=2)
+        doubled = some + [(0.2 - x, y, z, q) for x, y, z, q in some]
+        whole = self.field(self.case(cells=(40, 20, 20), mesh=wide), doubled)[:40]
+        for kind, condition in (("wall", "type zeroGradient;"), ("symmetryPlane", "type symmetryPlane;")):
+            mesh = [(split[0][0], split[0][1] % kind)]
+            conditions = {"bottom": ground, "top": ground, "sides": ground, "open": condition}
+            self.assertLess(difference(self.field(self.case(mesh=mesh, conditions=conditions), some), whole), 0.01)
+
+    def periodic(self, cells=(20, 20, 20)):
+        mesh = [("sides  { type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }",
+                 "sides { type wall; faces ((0 1 5 4) (3 7 6 2)); }\n"
+                 "    left { type cyclic; neighbourPatch right; faces ((0 4 7 3)); }\n"
+                 "    right { type cyclic; neighbourPatch left; faces ((1 2 6 5)); }")]
+        ground = "type fixedValue; value uniform 0;"
+        return self.case(cells=cells, mesh=mesh, conditions={"bottom": ground, "top": ground, "sides": ground,
+                                                             "left": "type cyclic;", "right": "type cyclic;"})
+
+    def test_periodic_box_does_not_know_where_it_begins(self):
+        some = charges(40, seed=3)
+        moved = [((x + 0.0371) % 0.1, y, z, q) for x, y, z, q in some]
+        fields = self.field(self.periodic(), some)
+        self.assertLess(difference(self.field(self.periodic(), moved), fields), 0.01)
+
+    def test_periodic_box_is_the_same_on_any_number_of_ranks(self):
+        some = charges(40, seed=4)
+        fields = self.field(self.periodic(), some)
+        for ranks in (2, 4):
+            self.assertLess(difference(self.field(self.periodic(), some, ranks), fields), 1e-6)
+
+    def test_stretched_cells_one_to_ten_keep_the_error_of_the_largest(self):
+        graded = [("simpleGrading (1 1 1)", "simpleGrading (10 1 1)")]
+        some = charges(40, seed=5)
+        exact = self.field(self.case(cells=(32, 32, 32), coefficients="p3mCoeffs { cloudCells 6; gather quartic; deferredCorrection yes; }\n"), some)
+        self.assertLess(difference(self.field(self.case(mesh=graded), some), exact), 0.02)
+
+    def test_charge_of_one_side_of_a_baffle_does_not_act_on_the_other(self):
+        # Two boxes that share a wall: a baffle at z = 0.05 made of the faces between two zones.
+        case = self.case(cells=(12, 12, 12))
+        case.write("system/topoSetDict", "actions ( { name cut; type faceSet; action new; source boxToFace; "
+                   "box (-1 -1 0.0499) (1 1 0.0501); } { name cut; type faceZoneSet; action new; source setToFaceZone; faceSet cut; } );")
+        case.tool("topoSet")
+        case.write("system/createBafflesDict", "internalFacesOnly true; noFields true; baffles { cut { type faceZone; zoneName cut; "
+                   "patches { master { name above; type wall; } slave { name below; type wall; } } } }")
+        case.tool("createBaffles", "-overwrite")
+        ground = "type fixedValue; value uniform 0;"
+        case.write("0/electricPotential", "dimensions [1 2 -3 0 0 -1 0]; internalField uniform 0; boundaryField "
+                   "{ bottom { %s } top { %s } sides { %s } above { %s } below { %s } }" % ((ground,) * 5), "volScalarField")
+        lower = [(x, y, 0.5 * z, q) for x, y, z, q in charges(30, seed=6, lower=0.006, upper=0.094)]
+        upper = [(x, y, 0.1 - z, q) for x, y, z, q in lower]  # mirror images in the baffle, one by one
+        alone = self.field(case, lower)
+        both = self.field(case, lower + [(x, y, z, 5 * q) for x, y, z, q in upper])[:30]
+        self.assertLess(difference(both, alone), 1e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()
