@@ -3,6 +3,7 @@
 
 #include "foamPoissonMesh/meshArrays.H"
 #include "settings/checkedDictionary.H"
+#include "settings/electricRegion.H"
 #include "settings/foamExceptions.H"
 
 #include "IStringStream.H"
@@ -46,12 +47,18 @@ template <class Action> bool attempt(const std::string& where, Complaints& compl
     }
 }
 
+/// constant/polyMesh, or the same of a region.
+std::string meshFolder(const Foam::polyMesh& mesh)
+{
+    return ofRegion("constant", mesh.name()) / Foam::polyMesh::meshSubDir;
+}
+
 void refuseFlatMesh(const Foam::polyMesh& mesh, Complaints& complaints)
 {
     for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
         if (Foam::isA<Foam::emptyPolyPatch>(patch) || Foam::isA<Foam::wedgePolyPatch>(patch)) {
             complaints.add(
-                "constant/polyMesh/boundary: " + patch.name(),
+                meshFolder(mesh) + "/boundary: " + patch.name(),
                 "found a patch of type " + patch.type()
                     + ". Charges are points in three dimensions, and a mesh "
                       "of one cell depth cannot hold their field. Use a mesh with all three directions; walls or "
@@ -63,7 +70,7 @@ void refuseFlatMesh(const Foam::polyMesh& mesh, Complaints& complaints)
 /// Numerics that the files name but OpenFOAM does not know.
 void checkSchemes(const Foam::fvMesh& mesh, const potentialNumerics& numerics, Complaints& complaints)
 {
-    attempt("system/fvSchemes: gradSchemes", complaints, [&] {
+    attempt(std::string(ofRegion("system", mesh.name()) / "fvSchemes") + ": gradSchemes", complaints, [&] {
         Foam::IStringStream scheme(numerics.gradient);
         Foam::fv::gradScheme<Foam::scalar>::New(mesh, scheme);
     });
@@ -103,27 +110,31 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
         return nullptr;
     }
     bool complete = true;
-    const Foam::fileName folder = runTime.path() / runTime.constant() / Foam::polyMesh::meshSubDir;
+    const Foam::word region = electricRegion(runTime.globalPath());
+    const std::string where = ofRegion("constant", region) / Foam::polyMesh::meshSubDir;
+    const Foam::fileName folder = runTime.path() / where;
+    const Foam::fileName system = ofRegion("system", region);
+    const std::string cutting = region == Foam::polyMesh::defaultRegion ? "decomposePar" : "decomposePar -region " + region;
     if (!onAllRanks(Foam::isFile(folder / "owner"))) {
-        complaints.add("constant/polyMesh", "there is no mesh in " + folder
-                                                + ", but the field method needs one. Make it with "
-                                                  "blockMesh, and cut it with decomposePar for a parallel run.");
+        complaints.add(where, "there is no mesh in " + folder
+                                  + ", but the field method needs one. Make it with blockMesh, and cut it with " + cutting
+                                  + " for a parallel run.");
         complete = false;
     }
     const std::size_t before = complaints.lines().size();
-    readPotentialNumerics(runTime.globalPath(), "system", complaints);
+    readPotentialNumerics(runTime.globalPath(), system, complaints);
     complete = complete && complaints.lines().size() == before;
     if (!complete) {
         return nullptr;
     }
 
     // A mesh reads schemes and solution together or not at all.
-    const bool haveNumerics = checkedDictionary::exists(runTime.globalPath(), "system/fvSchemes")
-                              && checkedDictionary::exists(runTime.globalPath(), "system/fvSolution");
+    const bool haveNumerics = checkedDictionary::exists(runTime.globalPath(), system / "fvSchemes")
+                              && checkedDictionary::exists(runTime.globalPath(), system / "fvSolution");
     Foam::autoPtr<Foam::fvMesh> mesh;
-    attempt("constant/polyMesh", complaints, [&] {
+    attempt(where, complaints, [&] {
         mesh.reset(new Foam::fvMesh(
-            Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime,
+            Foam::IOobject(region, runTime.timeName(), runTime,
                            haveNumerics ? Foam::IOobject::MUST_READ : Foam::IOobject::NO_READ)));
     });
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
@@ -135,10 +146,10 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
     const std::size_t before = complaints.lines().size();
     refuseFlatMesh(mesh, complaints);
     Complaints alreadyMade;  // by openMesh
-    const potentialNumerics numerics = readPotentialNumerics(mesh.time().globalPath(), "system", alreadyMade);
+    const potentialNumerics numerics = readPotentialNumerics(mesh.time().globalPath(), ofRegion("system", mesh.name()), alreadyMade);
     checkSchemes(mesh, numerics, complaints);
 
-    const std::string where = mesh.time().timeName() + "/electricPotential";
+    const std::string where = ofRegion(mesh.time().timeName(), mesh.name()) / "electricPotential";
     Foam::IOobject header("electricPotential", mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ);
     if (!onAllRanks(header.typeHeaderOk<Foam::volScalarField>(true))) {
         complaints.add(

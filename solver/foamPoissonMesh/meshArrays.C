@@ -2,6 +2,7 @@
 #include "foamPoissonMesh/meshArrays.H"
 
 #include "foamPoissonMesh/conversions.H"
+#include "settings/electricRegion.H"
 
 #include "basicSymmetryFvPatchField.H"
 #include "cyclicPolyPatch.H"
@@ -178,7 +179,7 @@ void refuseOtherConditions(const volScalarField& potential, Complaints& complain
             reason = found == reasons.end() ? "" : *found;
         }
         if (!reason.empty()) {
-            complaints.add(potential.time().timeName() + "/electricPotential: "
+            complaints.add(std::string(ofRegion(potential.time().timeName(), potential.mesh().name()) / "electricPotential") + ": "
                                + potential.boundaryField()[patch].patch().name(),
                            "found " + reason + ".");
         }

@@ -2,6 +2,7 @@
 #include "foamPoissonMesh/potentialEquation.H"
 
 #include "settings/checkedDictionary.H"
+#include "settings/electricRegion.H"
 
 #include "IStringStream.H"
 #include "gradScheme.H"
@@ -188,10 +189,11 @@ solverPerformance potentialEquation::solveOnce(scalarField& values, const scalar
         performance.print(Info.masterStream(potential_.mesh().comm()));
     }
     if (!performance.converged()) {
+        const std::string file = ofRegion("system", potential_.mesh().name()) / "fvSolution";
         throw std::runtime_error(
             "the potential did not converge: " + performance.solverName() + " stopped after "
             + std::to_string(performance.nIterations()) + " iterations at a residual of " + shown(performance.finalResidual())
-            + ". Raise maxIter or tolerance, or choose another solver, in solvers.electricPotential of system/fvSolution.");
+            + ". Raise maxIter or tolerance, or choose another solver, in solvers.electricPotential of " + file + ".");
     }
     return performance;
 }

@@ -2,6 +2,7 @@
 #include "himField/snapshot.H"
 
 #include "settings/checkedDictionary.H"
+#include "settings/electricRegion.H"
 
 #include "OSspecific.H"
 #include "coupledPolyPatch.H"
@@ -16,13 +17,6 @@ namespace {
 
 /// A face of a cyclic patch may be this much out of the axis.
 constexpr double alignment = 1e-6;
-
-/// Whether the case has a mesh, whole or cut. Collective.
-bool hasMesh(const Foam::Time& runTime)
-{
-    const Foam::fileName folder = runTime.path() / runTime.constant() / Foam::polyMesh::meshSubDir;
-    return Foam::returnReduce(Foam::isFile(folder / "owner"), Foam::orOp<bool>());
-}
 
 /// Directions in which cyclic patches close the mesh. Collective.
 std::array<bool, 3> periodicDirections(const Foam::fvMesh& mesh, Complaints& complaints)
@@ -40,7 +34,7 @@ std::array<bool, 3> periodicDirections(const Foam::fvMesh& mesh, Complaints& com
                 axis = std::abs(normal[other]) > std::abs(normal[axis]) ? other : axis;
             }
             if (std::abs(normal[axis]) < 1 - alignment) {
-                complaints.add("constant/polyMesh/boundary: " + patch.name(),
+                complaints.add(std::string(ofRegion("constant", mesh.name()) / "polyMesh/boundary") + ": " + patch.name(),
                                "the cyclic patch is not at right angles to x, y or z. Periodic copies are sought along "
                                "the axes only: turn the mesh, or close the patch with walls.");
                 break;
@@ -92,7 +86,7 @@ void openSnapshot(const Foam::argList& args, const std::vector<std::string>& nam
         return;
     }
     s.runTime.reset(new Foam::Time(Foam::Time::controlDictName, args));
-    if (wanted || (openAny && hasMesh(s.runTime()))) {
+    if (wanted || (openAny && hasElectricMesh(s.runTime().globalPath()))) {
         s.mesh = openMesh(s.runTime(), complaints);
     }
     if (!s.mesh.valid()) {

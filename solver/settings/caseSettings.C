@@ -2,6 +2,7 @@
 #include "settings/caseSettings.H"
 
 #include "settings/checkedDictionary.H"
+#include "settings/electricRegion.H"
 #include "settings/fieldChoices.H"
 
 #include "OSspecific.H"
@@ -25,7 +26,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
 {
     caseSettings settings;
     settings.field = readFieldChoices(casePath, complaints).selected;
-    settings.needsMesh = settings.field.method.empty() ? existsInCase(casePath / "constant" / "polyMesh")
+    settings.needsMesh = settings.field.method.empty() ? hasElectricMesh(casePath)
                                                        : FieldMethod::needsMesh(settings.field.method);
 
     checkedDictionary properties(casePath, "constant/couplingProperties", complaints);

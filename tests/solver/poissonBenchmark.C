@@ -14,6 +14,8 @@ Usage
     poissonBenchmark [-case DIR]
 \*---------------------------------------------------------------------------*/
 #include "checks/caseChecks.H"
+#include "directSolve/directSolver.H"
+#include "foamPoissonMesh/meshArrays.H"
 #include "foamPoissonMesh/potentialEquation.H"
 #include "parallel/session.H"
 
@@ -142,6 +144,20 @@ int main(int argc, char* argv[])
         {"PCG DIC", "solver PCG; preconditioner DIC; relTol 0; maxIter 5000;"},
         {"PCG GAMG", "solver PCG; preconditioner { preconditioner GAMG; smoother GaussSeidel; tolerance 1e-6; relTol 0; "
                      "nVcycles 1; } relTol 0;"}};
+    if (const auto direct = directSolver::create(makeMeshArrays(potential), communicator)) {
+        Scalars source(mesh().nCells());
+        std::copy(sources[0].begin(), sources[0].end(), source.begin());
+        Scalars values;
+        std::vector<double> seconds;
+        for (int n = 0; n < 9; ++n) {
+            const double start = cpuSeconds();
+            direct->solve(-source, directSolver::Operator::finiteVolume, values);
+            seconds.push_back(cpuSeconds() - start);
+        }
+        std::sort(seconds.begin(), seconds.end());
+        std::printf("direct solve: %.1f ns per cell (median), %.1f (least)\n", 1e9 * seconds[4] / mesh().nCells(),
+                    1e9 * seconds[0] / mesh().nCells());
+    }
     std::printf("%d cells, ns per cell and solve, CPU time of one core\n", mesh().nCells());
     std::printf("| solver | tolerance | first (with assembly) | cold | warm | field error cold | warm |\n");
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
