@@ -109,6 +109,8 @@ double foamPoissonMesh::potential(Index cell) const
 void foamPoissonMesh::forgetPotential()
 {
     electricPotential_.primitiveFieldRef() = 0;
+    solvedCharge_.reset();
+    partSolvedCharge_.reset();
     if (part_) {
         part_->potential.primitiveFieldRef() = 0;
         part_->firstIncrement = 0;
@@ -141,6 +143,22 @@ void foamPoissonMesh::balance(Foam::scalarField& source, double boundaryFlux) co
     source -= (excess / gSum(mesh_.V())) * mesh_.V().field();
 }
 
+bool foamPoissonMesh::mustSolve(const Scalars& cellCharge, std::optional<Scalars>& solved) const
+{
+    if (numerics_.resolveAbove == 0) {
+        return true;
+    }
+    if (solved) {
+        const scalar change = returnReduce(scalar((cellCharge - *solved).abs().sum()), sumOp<scalar>());
+        const scalar all = returnReduce(scalar(cellCharge.abs().sum()), sumOp<scalar>());
+        if (change <= numerics_.resolveAbove * all) {
+            return false;
+        }
+    }
+    solved = cellCharge;
+    return true;
+}
+
 Foam::scalarField foamPoissonMesh::sourceOf(const Scalars& cellCharge) const
 {
     if (!potentialIsFixed_ && !neutralisingBackground_) {
@@ -156,6 +174,10 @@ Foam::scalarField foamPoissonMesh::sourceOf(const Scalars& cellCharge) const
 
 void foamPoissonMesh::solve(const Scalars& cellCharge)
 {
+    partIsLatest_ = false;
+    if (!mustSolve(cellCharge, solvedCharge_)) {
+        return;
+    }
     if (directSolver* solver = direct()) {
         Scalars source = cellCharge / permittivity_;
         solver->addBoundaryValues(arrays().boundary, arrays().boundary.value, source);
@@ -170,7 +192,6 @@ void foamPoissonMesh::solve(const Scalars& cellCharge)
         }
         equation_.solve(source);
     }
-    partIsLatest_ = false;
     electricField_ = -equation_.gradient();
     forAll(chargeDensity_, cell)
     {

@@ -112,6 +112,11 @@ void foamPoissonMesh::setBoundaryValues(const Scalars& boundaryValue)
 
 void foamPoissonMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
 {
+    partIsLatest_ = true;
+    partIsNew_ = mustSolve(cellCharge, partSolvedCharge_);
+    if (!partIsNew_) {
+        return;
+    }
     setBoundaryValues(boundaryValue);
     if (directSolver* solver = direct()) {
         if (matched_ && returnReduce(bool((boundaryValue != 0).any()), orOp<bool>())) {
@@ -146,6 +151,9 @@ void foamPoissonMesh::finishPart()
 
 void foamPoissonMesh::correct(const Scalars& residual)
 {
+    if (!partIsNew_) {
+        return;  // the last potential has its correction
+    }
     if (directSolver* solver = direct()) {
         Scalars values;
         solver->solve(residual / permittivity_, directSolver::Operator::finiteVolume, values);

@@ -112,6 +112,7 @@ potentialNumerics readPotentialNumerics(const Foam::fileName& casePath, const Fo
         numerics.nonOrthogonalCorrectors = correctors;
     }
     numerics.directSolve = corrections.oneOf("directSolve", {"auto", "no"}, "auto") == "auto";
+    numerics.resolveAbove = corrections.has("resolveAbove") ? corrections.positive("resolveAbove", 1) : 0;
     corrections.refuseUnknownEntries();
     return numerics;
 }

@@ -89,6 +89,24 @@ class PotentialOfTheMesh(unittest.TestCase):
         field = solved(case).particles("1e-05")
         self.assertGreater(field[2]["electricField"][0], 0)
 
+    def solves_with(self, entry):
+        """How often the potential is solved for in a run of two updates, and the largest field after it."""
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder)
+            case.replace("system/fvSolution", "HIM {", "HIM { %s" % entry)
+            result = case.run()
+            self.assertEqual(result.code, 0, result.text)
+            return result.text.count("Solving for electricPotential"), case.charge_table()[1][-1]["largestField"]
+
+    def test_solves_are_left_out_while_charges_have_moved_little(self):
+        always, field = self.solves_with("")
+        self.assertGreater(always, 1)
+        # Before one of the solves no charge has left its cell and none was moved in a contact.
+        self.assertEqual(self.solves_with("resolveAbove 1e-12;"), (always - 1, field))
+        once, other = self.solves_with("resolveAbove 1e6;")
+        self.assertEqual(once, 1)
+        self.assertNotEqual(other, field)
+
     def tilted_cells(self, correctors):
         """Largest deviation [V] from the linear potential between plates at 0 and 500 V, on two blocks that share a tilted
         face, so that most faces are not orthogonal to the line between their cells."""
