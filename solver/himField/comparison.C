@@ -14,6 +14,9 @@ namespace {
 /// Every so many particles one is moved for the warm calls.
 constexpr Index movedEvery = 50;
 
+/// How far, in cells; not half a cell, which would put spheres that touch a wall onto it on common meshes.
+constexpr double movedCells = 0.35;
+
 /// Pairs that pairwiseSum may sum in one field before it is left out of a comparison that does not name it.
 constexpr double mostPairs = 2e10;
 
@@ -51,7 +54,7 @@ std::vector<comparedMethod> wanted(const snapshot& s, const comparisonOptions& o
     return list;
 }
 
-/// The particles after every 50th has moved by half a cell, or a hundredth of the box of the particles without a mesh;
+/// The particles after every 50th has moved by movedCells, or a hundredth of the box of the particles without a mesh;
 /// where that leads out of the mesh it stays.
 DemParticles moved(const DemParticles& particles, const snapshot& s)
 {
@@ -63,7 +66,7 @@ DemParticles moved(const DemParticles& particles, const snapshot& s)
             continue;
         }
         const Index axis = (tag / movedEvery) % 3;
-        const double step = size > 0 ? 0.5 * size : 0.01 * particles.position.col(axis).abs().maxCoeff();
+        const double step = size > 0 ? movedCells * size : 0.01 * particles.position.col(axis).abs().maxCoeff();
         for (const double sign : {1.0, -1.0}) {
             Vector3 place = particles.position.row(row).matrix().transpose();
             place[axis] += sign * step;

@@ -139,7 +139,7 @@ std::string textTable(const comparison& result)
         << "\nTimes       seconds of one field, medians over "
         << (fewest == most ? std::to_string(most) : std::to_string(fewest) + " to " + std::to_string(most))
         << " rounds in which the methods take turns. Near to total: warm, the solve starts from\n"
-           "            the potential before 2 % of the charges moved by half a cell; cold: it starts from zero.\n"
+           "            the potential before 2 % of the charges moved by 0.35 cells; cold: it starts from zero.\n"
            "Pairs       near pairs per particle. MiB: peak of the program during the method's first field, all ranks.\n"
            "Errors      RMS|E - Eref| and max|E - Eref|, both over RMS|Eref|, the external field left out.\n\n"
         << aligned(rows);

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""cases/speedAgainstError, shortened, in a copy: the report is there and says what it must."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+
+
+class SpeedAgainstError(unittest.TestCase):
+    def test_the_short_study_reports_every_scene_and_p3m_beats_him_in_each(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            shutil.copy(CASES / "RunFunctions", root)
+            shutil.copytree(CASES / "speedAgainstError", root / "speedAgainstError", ignore=shutil.ignore_patterns("runs"))
+            done = subprocess.run(["./Allrun", "-short"], cwd=root / "speedAgainstError", stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  text=True, env=dict(os.environ))
+            self.assertEqual(done.returncode, 0, done.stdout)
+            report = (root / "speedAgainstError/runs/report.md").read_text()
+            self.assertTrue((root / "speedAgainstError/runs/speedAgainstError.png").exists())
+        glance = report[report.index("| scene |"):].split("\n\n")[0].splitlines()
+        names = [cell.strip() for cell in glance[0].split("|")][2:-1]
+        self.assertEqual(len(glance) - 2, 9)
+        for line in glance[2:]:
+            cells = [cell.strip() for cell in line.split("|")][1:-1]
+            errors = {name: float(cell.split(" at ")[0]) for name, cell in zip(names, cells[1:])}
+            self.assertLess(errors["p3m-2h"], 0.25 * errors["him-diagonal"], line)
+            self.assertLess(errors["p3m-3h"], 0.02, line)
+        self.assertIn("| dilute | p3m-3h |", report)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
