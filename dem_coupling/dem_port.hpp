@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/complaints.hpp"
+#include "dem_coupling/field_settings.hpp"
 #include "electrostatics/types.hpp"
 
 #include <array>
@@ -32,6 +33,8 @@ struct DemWall {
     std::string shape;           ///< "zplane", "zcylinder", ..., or "mesh"
     int type = 0;                ///< DEM atom type of its material
     bool chargingModel = false;  ///< its contact model records contacts for charging
+    bool primitive = false;      ///< a plane or cylinder, described by `image`
+    ImageWall image = {};        ///< of a primitive wall; the side of a plane's normal is arbitrary
 };
 
 /// How a DEM wall takes part in charging, decided by the case.

@@ -6,6 +6,7 @@
 #include "electrostatics/require.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -33,7 +34,7 @@ Scalars padded(const Eigen::Ref<const Scalars>& values)
 }  // namespace
 
 std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow,
-                         double permittivity, Points& field, Scalars& potential)
+                         double permittivity, Points& field, Scalars& potential, double cutoff)
 {
     requirePositive("permittivity", permittivity);
     if (charges.size() != sources.rows() || field.rows() != targets.rows() || potential.size() != targets.rows()
@@ -59,7 +60,7 @@ std::int64_t addAllPairs(const Points& targets, const Points& sources, const Sca
     Points sum = Points::Zero(targets.rows(), 3);
     Scalars sumOfPotential = Scalars::Zero(targets.rows());
     const SumArrays sums{sum.col(0).data(), sum.col(1).data(), sum.col(2).data(), sumOfPotential.data()};
-    const PairLimits noLimits{std::numeric_limits<double>::max(), 0.0, 0.0, {}, {}};
+    const PairLimits limits{std::isfinite(cutoff) ? cutoff * cutoff : std::numeric_limits<double>::max(), 0.0, 0.0, {}, {}};
     const PairKernels::Law& law = runnablePairKernels().front()->coulomb;
 
     std::int64_t pairs = 0;
@@ -70,7 +71,7 @@ std::int64_t addAllPairs(const Points& targets, const Points& sources, const Sca
         const auto add = [&](Index target, int targetCount, RowRange range) {
             if (range.begin < range.end) {
                 found +=
-                    law.single(targetArrays.from(target), targetCount, sums.from(target), arrays, &range, 1, noLimits);
+                    law.single(targetArrays.from(target), targetCount, sums.from(target), arrays, &range, 1, limits);
             }
         };
         if (selfRow < 0) {

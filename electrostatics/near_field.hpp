@@ -7,6 +7,7 @@
 #include "electrostatics/types.hpp"
 
 #include <cstdint>
+#include <limits>
 
 namespace him {
 
@@ -82,12 +83,13 @@ private:
     Scalars fieldX_, fieldY_, fieldZ_, sumOfPotential_;  ///< without 1/(4 pi eps)
 };
 
-/// Field and potential at `targets` of all `sources` without a cutoff (R29, method PS), added to what `field` and
+/// Field and potential at `targets` of all `sources` (R29, method PS), or of those within `cutoff` [m], added to what `field` and
 /// `potential` hold. `selfRow` is the row among the sources of the first target, or -1 when the targets are not among
 /// them; target t is source selfRow + t. Throws std::domain_error naming two rows that share a position.
 /// @return number of pairs summed
 std::int64_t addAllPairs(const Points& targets, const Points& sources, const Scalars& charges, Index selfRow,
-                         double permittivity, Points& field, Scalars& potential);
+                         double permittivity, Points& field, Scalars& potential,
+                         double cutoff = std::numeric_limits<double>::infinity());
 
 /// Electrostatic energy [J]: U = 1/2 sum q_i V_i, V_i without the particle's own Coulomb term.
 double electrostaticEnergy(const Scalars& charge, const Scalars& potential);

@@ -2,6 +2,7 @@
 #include "dem_coupling/field_methods/pairwise_sum.hpp"
 
 #include "dem_coupling/field_methods/shared_steps.hpp"
+#include "electrostatics/constants.hpp"
 #include "electrostatics/near_field.hpp"
 
 #include <limits>
@@ -10,11 +11,11 @@
 namespace him {
 
 PairwiseSum::PairwiseSum(const FieldSettings& settings, MPI_Comm communicator, PhaseTimes& times)
-    : settings_(settings), communicator_(communicator), times_(times)
+    : settings_(settings), communicator_(communicator), times_(times), walls_(settings.pairwiseSum.imageWalls)
 {
 }
 
-double PairwiseSum::partnerCutoff() const { return std::numeric_limits<double>::infinity(); }
+double PairwiseSum::partnerCutoff() const { return settings_.pairwiseSum.truncation; }
 
 void PairwiseSum::passOn()
 {
@@ -58,7 +59,12 @@ void PairwiseSum::compute(const DemParticles& particles, ParticleField& result)
         const PhaseTimer timer(times_, Phase::near);
         try {
             pairs += addAllPairs(particles.position, visitors_, visitorCharge_, turn == 0 ? 0 : -1, settings_.permittivity,
-                                 result.field, result.potential);
+                                 result.field, result.potential, settings_.pairwiseSum.truncation);
+            if (settings_.pairwiseSum.images) {
+                walls_.make(visitors_, visitorCharge_, images_);
+                pairs += addAllPairs(particles.position, images_.position, images_.charge, -1, settings_.permittivity,
+                                     result.field, result.potential, settings_.pairwiseSum.truncation);
+            }
         } catch (const std::domain_error& error) {
             // Keep the ring going; all ranks stop together below.
             failure = error.what();
@@ -70,8 +76,28 @@ void PairwiseSum::compute(const DemParticles& particles, ParticleField& result)
         }
     }
     result.pairs = sumPairs(pairs, failure, particles, failedSources, communicator_);
+    result.ownResponse.resize(0, 3);
+    if (settings_.pairwiseSum.images) {
+        addOwnImages(particles, result);
+    }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
+}
+
+void PairwiseSum::addOwnImages(const DemParticles& particles, ParticleField& result)
+{
+    result.ownResponse.setZero(particles.size(), 3);
+    walls_.make(particles.position, particles.charge, images_);
+    const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
+    for (std::size_t n = 0; n < images_.owner.size(); ++n) {
+        const Index row = images_.owner[n];
+        const Vector3 r = (particles.position.row(row) - images_.position.row(static_cast<Index>(n))).matrix().transpose();
+        const double distance = r.norm();
+        if (distance <= settings_.pairwiseSum.truncation) {
+            const double scale = coulombConstant * images_.charge[static_cast<Index>(n)] / (distance * distance * distance);
+            result.ownResponse.row(row) += (scale * r).transpose().array();
+        }
+    }
 }
 
 }  // namespace him

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/field_method.hpp"
+#include "dem_coupling/field_methods/wall_images.hpp"
 
 namespace him {
 
@@ -18,10 +19,14 @@ public:
 private:
     /// Sends the visiting particles on to the next rank and receives the previous rank's.
     void passOn();
+    /// Field of each particle's own images, into result.ownResponse.
+    void addOwnImages(const DemParticles& particles, ParticleField& result);
 
     FieldSettings settings_;
     MPI_Comm communicator_;
     PhaseTimes& times_;
+    WallImages walls_;
+    WallImages::Set images_;
     Points visitors_, nextVisitors_;
     Scalars visitorCharge_, nextVisitorCharge_;
 };

@@ -19,6 +19,35 @@ struct PrimitiveShape {
 };
 template struct PrivateMember<PrimitiveShape, &LAMMPS_NS::PrimitiveWall::wType>;
 
+struct PrimitiveParameters {
+    using Member = double* LAMMPS_NS::PrimitiveWall::*;
+    friend Member memberOf(PrimitiveParameters);
+};
+template struct PrivateMember<PrimitiveParameters, &LAMMPS_NS::PrimitiveWall::param>;
+
+namespace {
+
+/// Geometry of "xplane c", ..., "xcylinder radius c1 c2", ...: the numbers are given in the order x, y, z of the remaining
+/// axes.
+ImageWall imageWallOf(const std::string& name, int shape, const double* parameters)
+{
+    ImageWall wall;
+    wall.name = name;
+    const int axis = shape % 3;
+    wall.normal = Vector3::Unit(axis);
+    if (shape < primitives::XCYLINDER) {
+        wall.point[axis] = parameters[0];
+    } else {
+        wall.shape = ImageWall::Shape::cylinder;
+        wall.radius = parameters[0];
+        wall.point[axis == 0 ? 1 : 0] = parameters[1];
+        wall.point[axis == 2 ? 1 : 2] = parameters[2];
+    }
+    return wall;
+}
+
+}  // namespace
+
 std::vector<ListedWall> listWalls(LAMMPS_NS::LAMMPS* lmp)
 {
     std::vector<ListedWall> walls;
@@ -35,7 +64,9 @@ std::vector<ListedWall> listWalls(LAMMPS_NS::LAMMPS* lmp)
             }
         } else {
             const auto shape = fix->primitiveWall()->*memberOf(PrimitiveShape{});
-            walls.push_back({{fix->id, primitives::wallString[shape], fix->atom_type_wall(), charging}, fix});
+            walls.push_back({{fix->id, primitives::wallString[shape], fix->atom_type_wall(), charging, true,
+                              imageWallOf(fix->id, shape, fix->primitiveWall()->*memberOf(PrimitiveParameters{}))},
+                             fix});
         }
     }
     return walls;

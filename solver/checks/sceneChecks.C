@@ -122,6 +122,34 @@ void checkWalls(const caseSettings& settings, const DemPort& dem, Complaints& co
     }
 }
 
+void findImageWalls(caseSettings& settings, const DemPort& dem, Complaints& complaints)
+{
+    PairwiseSumSettings& sum = settings.field.pairwiseSum;
+    if (settings.field.method != "pairwiseSum" || !sum.images) {
+        return;
+    }
+    const std::string where = "constant/electrostaticProperties: pairwiseSumCoeffs: images";
+    sum.imageWalls.clear();
+    for (const DemWall& wall : dem.walls()) {
+        const auto mapped = std::find_if(settings.walls.begin(), settings.walls.end(),
+                                         [&](const auto& entry) { return entry.first == wall.name; });
+        if (mapped == settings.walls.end() || mapped->second == noTransfer) {
+            continue;
+        }
+        if (!wall.primitive) {
+            complaints.add(where, "the grounded DEM wall " + wall.name
+                                      + " is a mesh, and the pair sum mirrors charges in planes and cylinders only. Use "
+                                        "primitive walls, or fieldMethod p3m.");
+        } else {
+            sum.imageWalls.push_back(wall.image);
+        }
+    }
+    if (sum.imageWalls.empty() && complaints.none()) {
+        complaints.add(where, "the DEM scene has no grounded wall to mirror charges in. Map walls to grounded in "
+                              "constant/couplingProperties, or write images no.");
+    }
+}
+
 void checkParticlesInMesh(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh& mesh,
                           MPI_Comm communicator, Complaints& complaints)
 {

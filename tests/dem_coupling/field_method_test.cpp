@@ -286,6 +286,55 @@ TEST(FieldMethod, reportsAllComplaintsTogether)
 }
 
 }  // namespace
+/// Field of one charge of 4 pi eps0 C by the pair sum with images in these planes, each through the origin with this normal.
+ParticleField imageField(const Vector3& place, const std::vector<Vector3>& normals)
+{
+    FieldSettings settings = settingsOf("pairwiseSum");
+    settings.pairwiseSum.images = true;
+    for (const Vector3& normal : normals) {
+        settings.pairwiseSum.imageWalls.push_back({"wall", ImageWall::Shape::plane, Vector3::Zero(), normal, 0});
+    }
+    DemParticles one = emptyParticles(1);
+    one.position.row(0) = place.transpose().array();
+    one.charge[0] = 4 * pi * epsilon0;
+    PhaseTimes times;
+    ParticleField result;
+    FieldMethod::create(settings, nullptr, box, open, MPI_COMM_SELF, times)->compute(one, result);
+    return result;
+}
+
+TEST(PairwiseSum, pullsAChargeToAGroundedPlaneEdgeAndCornerByItsImages)
+{
+    const double a = 0.3;
+    const Vector3 place(a, a, a);
+    const Vector3 x = -Vector3::UnitX(), y = -Vector3::UnitY(), z = -Vector3::UnitZ();
+    // q^2/(16 pi eps0 a^2), and the sums over 3 and 7 images by hand
+    const double edge = -1 / (4 * a * a) * (1 - 1 / (2 * std::sqrt(2.0)));
+    const double corner = -1 / (4 * a * a) * (1 - 2 / (2 * std::sqrt(2.0)) + 1 / (3 * std::sqrt(3.0)));
+    EXPECT_LT((imageField(place, {x}).field.row(0).matrix().transpose() - Vector3(-1 / (4 * a * a), 0, 0)).norm(), 1e-12);
+    EXPECT_LT((imageField(place, {x, y}).field.row(0).matrix().transpose() - Vector3(edge, edge, 0)).norm(), 1e-12);
+    const ParticleField result = imageField(place, {x, y, z});
+    EXPECT_LT((result.field.row(0).matrix().transpose() - Vector3::Constant(corner)).norm(), 1e-12);
+    EXPECT_LT((result.ownResponse - result.field).matrix().norm(), 1e-12);
+    EXPECT_EQ(result.pairs, 7);
+}
+
+TEST(PairwiseSum, leavesOutPairsBeyondItsTruncation)
+{
+    DemParticles three = emptyParticles(3);
+    three.position.row(1) << 3e-3, 0, 0;
+    three.position.row(2) << 0, 9e-3, 0;
+    three.charge.setConstant(1e-12);
+    FieldSettings settings = settingsOf("pairwiseSum");
+    settings.pairwiseSum.truncation = 5e-3;
+    PhaseTimes times;
+    ParticleField result;
+    FieldMethod::create(settings, nullptr, box, open, MPI_COMM_SELF, times)->compute(three, result);
+    EXPECT_EQ(result.pairs, 2);
+    EXPECT_EQ(result.field.row(2).matrix().norm(), 0);
+    EXPECT_NEAR(result.field(1, 0), 1e-12 / (4 * pi * epsilon0 * 9e-6), 1e-9);
+}
+
 TEST(Settings, ofP3mAreRefusedTogetherWithTheAllowedValues)
 {
     const BoxMesh mesh(box, cells, epsilon0, MPI_COMM_SELF);
