@@ -30,6 +30,9 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     if (result.excludedCount > 0 && settings_.outsideMesh == OutsideMesh::error) {
         refuseOutside("him", locator_, particles, result.excludedCount, communicator_);
     }
+    if (settings_.him.removeOwnCellResponse) {
+        extendOwnCellTable(particles.size());
+    }
     addMeshField(particles, result);
     {
         const PhaseTimer timer(times_, Phase::exchange);
@@ -51,9 +54,58 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     }
     result.pairs = sumPairs(sums_.pairs, failure, particles, points_.position, communicator_);
     result.field += sums_.field;
+    result.ownResponse.resize(0, 3);
+    if (settings_.him.removeOwnCellResponse) {
+        removeOwnCellResponse(particles, result);
+    }
     result.potential.resize(0);
     result.energy = std::numeric_limits<double>::quiet_NaN();
     addExternalField(settings_.externalField, result);
+}
+
+void Him::extendOwnCellTable(Index particles)
+{
+    const PhaseTimer timer(times_, Phase::poisson);
+    ownCellField_.resize(static_cast<std::size_t>(mesh_.cellCount()), Vector3::Zero());
+    ownCellKnown_.resize(static_cast<std::size_t>(mesh_.cellCount()), false);
+    locator_.deposit(Scalars::Ones(particles), cellCharge_);
+    std::vector<Index> fresh;
+    for (Index cell = 0; cell < cellCharge_.size(); ++cell) {
+        if (cellCharge_[cell] > 0 && !ownCellKnown_[static_cast<std::size_t>(cell)]) {
+            fresh.push_back(cell);
+        }
+    }
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(communicator_, &rank);
+    MPI_Comm_size(communicator_, &ranks);
+    std::vector<int> counts(static_cast<std::size_t>(ranks));
+    const int mine = static_cast<int>(fresh.size());
+    MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator_);
+    // One coulomb: beside its field that of any electrode vanishes.
+    for (int turn = 0; turn < ranks; ++turn) {
+        for (int n = 0; n < counts[static_cast<std::size_t>(turn)]; ++n) {
+            cellCharge_.setZero(mesh_.cellCount());
+            const bool here = turn == rank;
+            const auto cell = here ? static_cast<std::size_t>(fresh[static_cast<std::size_t>(n)]) : 0;
+            if (here) {
+                cellCharge_[static_cast<Index>(cell)] = 1;
+            }
+            mesh_.solve(cellCharge_);
+            if (here) {
+                ownCellField_[cell] = mesh_.electricField(static_cast<Index>(cell));
+                ownCellKnown_[cell] = true;
+            }
+        }
+    }
+}
+
+void Him::removeOwnCellResponse(const DemParticles& particles, ParticleField& result)
+{
+    const PhaseTimer timer(times_, Phase::exchange);
+    Points unitField;
+    locator_.gather([this](Index cell) { return ownCellField_[static_cast<std::size_t>(cell)]; }, unitField);
+    result.field -= unitField.colwise() * particles.charge;
 }
 
 void Him::addMeshField(const DemParticles& particles, ParticleField& result)

@@ -22,6 +22,10 @@ public:
     bool hasPotential() const override { return false; }
 
 private:
+    /// Unit-charge solves for cells that hold particles for the first time. Collective.
+    void extendOwnCellTable(Index particles);
+    /// Takes the field out that the mesh makes of each particle at its own cell.
+    void removeOwnCellResponse(const DemParticles& particles, ParticleField& result);
     void addMeshField(const DemParticles& particles, ParticleField& result);
     void sumNear(bool someExcluded);
     void sumNearWithExcluded();
@@ -35,6 +39,8 @@ private:
     NearField near_;
     ChargedPoints points_;
     PairSumResult sums_, partialSums_;
+    std::vector<Vector3> ownCellField_;  ///< at a cell of a charge of 1 C in it [V/(m C)]
+    std::vector<bool> ownCellKnown_;
     Scalars cellCharge_, inMesh_;
 };
 

@@ -268,5 +268,38 @@ TEST(Him, leavesExcludedParticlesOutOfTheMeshAndOutOfItsCorrection)
     }
 }
 
+TEST(HimWithoutOwnCellResponse, leavesASingleChargeAloneAndTheFieldOfOthersAsItIs)
+{
+    Box cube;
+    cube.lower.setZero();
+    cube.upper.setConstant(0.1);
+    const auto fieldOf = [&](bool remove, const DemParticles& particles) {
+        BoxMesh mesh(cube, {10, 10, 10}, epsilon0, MPI_COMM_WORLD);
+        FieldSettings settings;
+        settings.method = "him";
+        settings.nearCutoff = 0.02;
+        settings.permittivity = epsilon0;
+        settings.him.removeOwnCellResponse = remove;
+        PhaseTimes times;
+        ParticleField result;
+        const DemParticles mine = dealt(particles, MPI_COMM_WORLD);
+        FieldMethod::create(settings, &mesh, cube, {false, false, false}, MPI_COMM_WORLD, times)->compute(mine, result);
+        return gatherByTag(mine.tag, result.field, MPI_COMM_WORLD);
+    };
+    DemParticles one = emptyParticles(1);
+    one.position.row(0) << 0.004, 0.052, 0.047;  // in a cell at the wall, which pulls at its mesh image
+    one.charge[0] = 1e-9;
+    const Vector3 self = fieldOf(false, one).at(1);
+    EXPECT_GT(self.norm(), 1e3);
+    EXPECT_LT(fieldOf(true, one).at(1).norm(), 1e-9 * self.norm());
+
+    DemParticles two = emptyParticles(2);
+    two.position.row(0) = one.position.row(0);
+    two.position.row(1) << 0.031, 0.066, 0.038;
+    two.charge << 1e-9, -3e-9;
+    const Vector3 removed = fieldOf(false, two).at(1) - fieldOf(true, two).at(1);
+    EXPECT_LT((removed - self).norm(), 1e-9 * self.norm());
+}
+
 }  // namespace
 }  // namespace him
