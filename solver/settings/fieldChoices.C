@@ -11,6 +11,12 @@ namespace him {
 
 namespace {
 
+void readPairwiseSum(checkedDictionary& coeffs, PairwiseSumSettings& settings)
+{
+    settings.images = coeffs.yesNo("images", settings.images);
+    settings.truncation = coeffs.positive("truncation", settings.truncation);
+}
+
 void readP3m(checkedDictionary& coeffs, P3mSettings& settings)
 {
     const bool inMetres = coeffs.has("cloudRadius");
@@ -31,7 +37,11 @@ void readCoeffs(checkedDictionary& coeffs, FieldSettings& settings)
         const double cutoff = coeffs.positive("nearCutoff");
         settings.nearCutoff = coeffs.readable() ? cutoff : 0;
     }
-    if (method == "himCell") {
+    if (method == "pairwiseSum") {
+        readPairwiseSum(coeffs, settings.pairwiseSum);
+    } else if (method == "him") {
+        settings.him.removeOwnCellResponse = coeffs.oneOf("ownCellResponse", {"keep", "remove"}, "keep") == "remove";
+    } else if (method == "himCell") {
         settings.himCell.deltaMin = coeffs.has("deltaMin") ? coeffs.positive("deltaMin", 1) : 0;
     } else if (method == "p3m") {
         readP3m(coeffs, settings.p3m);
