@@ -57,6 +57,8 @@ public:
     /// in solve(cellCharge, boundaryValue), whose boundary values are all zero from then on. True when the mesh has one: the
     /// direct solve of a uniform grounded box; no deferred correction is needed then. Collective.
     virtual bool useMatchedOperator() { return false; }
+    /// Back to the finite-volume operator, when another method has asked for the matched one.
+    virtual void useFiniteVolumeOperator() {}
 
     /// One line for logs and tables: cells, solver, tolerance.
     virtual std::string description() const { return {}; }

@@ -71,8 +71,8 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
     }
     MPI_Allreduce(MPI_IN_PLACE, special, 2, MPI_INT, MPI_MAX, communicator);
     faceValues_ = special[0] != 0;
-    const bool matched = !faceValues_ && special[1] == 0 && mesh.useMatchedOperator();
-    correct_ = settings.p3m.deferredCorrection && !matched;
+    matched_ = !faceValues_ && special[1] == 0 && mesh.useMatchedOperator();
+    correct_ = settings.p3m.deferredCorrection && !matched_;
 }
 
 double P3m::partnerCutoff() const { return std::numeric_limits<double>::infinity(); }
@@ -121,6 +121,12 @@ void P3m::depositAndSolve()
         }
         halo_.forwardCells(cellPotential_);
     };
+    // Several methods may share the mesh, so each says what it needs.
+    if (matched_) {
+        mesh_.useMatchedOperator();
+    } else {
+        mesh_.useFiniteVolumeOperator();
+    }
     mesh_.solve(cellCharge_, boundaryValue_);
     Scalars faces = boundaryValue_;
     halo_.forwardFaces(faces);

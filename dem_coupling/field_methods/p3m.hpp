@@ -52,6 +52,7 @@ private:
     NearField near_;
     ChargeCloud cloud_;
     ParticlesOnMesh particlesOnMesh_;
+    bool matched_ = false;     ///< the mesh solves with the operator that is matched to the gather
     bool correct_ = false;     ///< deferred correction by a second solve
     bool faceValues_ = false;  ///< some boundary face, on any rank, has a value besides the case's own
 

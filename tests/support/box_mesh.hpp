@@ -30,6 +30,7 @@ public:
     void solve(const Scalars& cellCharge, const Scalars& boundaryValue) override;
     void correct(const Scalars& residual) override;
     bool useMatchedOperator() override;
+    void useFiniteVolumeOperator() override { matched_ = false; }
 
     /// Whether this mesh solves directly, as a uniform grounded box, and so has the matched operator. Off, it stands for a
     /// mesh of any shape.
