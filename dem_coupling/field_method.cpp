@@ -3,6 +3,8 @@
 
 #include "dem_coupling/field_methods/direct_truncation.hpp"
 #include "dem_coupling/field_methods/him.hpp"
+#include "dem_coupling/field_methods/him_cell.hpp"
+#include "dem_coupling/field_methods/hybrid_particle_cell.hpp"
 #include "dem_coupling/field_methods/p3m.hpp"
 #include "dem_coupling/field_methods/pairwise_sum.hpp"
 
@@ -18,15 +20,18 @@ struct Method {
     std::string name;
     bool needsMesh;
     bool needsCutoff;
+    bool sumsAll;  ///< every charge acts on every other directly, so there can be no periodic copies
 };
 
 const std::vector<Method>& methods()
 {
     static const std::vector<Method> list{
-        {"pairwiseSum", false, false},
-        {"directTruncation", false, true},
-        {"him", true, true},
-        {"p3m", true, false},
+        {"pairwiseSum", false, false, true},
+        {"directTruncation", false, true, false},
+        {"hybridParticleCell", true, true, true},
+        {"him", true, true, false},
+        {"himCell", true, false, false},
+        {"p3m", true, false, false},
     };
     return list;
 }
@@ -161,8 +166,10 @@ Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* 
         checkP3m(settings.p3m, demBox, periodic, complaints);
     }
     if (method->needsCutoff) {
-        checkCutoff(settings, method->needsMesh ? mesh : nullptr, demBox, periodic, complaints);
-    } else if (!method->needsMesh && (periodic[0] || periodic[1] || periodic[2])) {
+        // Only him decides by the distance of two charges and yet corrects by cells.
+        checkCutoff(settings, settings.method == "him" ? mesh : nullptr, demBox, periodic, complaints);
+    }
+    if (method->sumsAll && (periodic[0] || periodic[1] || periodic[2])) {
         complaints.add(entry, settings.method
                                   + " sums every pair once, and in a periodic DEM box every charge has infinitely "
                                     "many copies. Use a DEM box without periodic directions, or another field method");
@@ -186,6 +193,12 @@ std::unique_ptr<FieldMethod> FieldMethod::create(const FieldSettings& settings, 
     }
     if (settings.method == "p3m") {
         return std::make_unique<P3m>(settings, *mesh, demBox, periodic, communicator, times);
+    }
+    if (settings.method == "himCell") {
+        return std::make_unique<HimCell>(settings, *mesh, demBox, periodic, communicator, times);
+    }
+    if (settings.method == "hybridParticleCell") {
+        return std::make_unique<HybridParticleCell>(settings, *mesh, demBox, communicator, times);
     }
     return std::make_unique<Him>(settings, *mesh, demBox, periodic, communicator, times);
 }

@@ -30,6 +30,9 @@ public:
     virtual Vector3 electricField(Index cell) const = 0;  ///< -grad V of the cell [V/m] (R30), after solve()
     virtual double potential(Index cell) const = 0;       ///< [V], after any solve
 
+    /// Box around the points of every local cell [m]. Made anew at every call.
+    virtual std::vector<Box> cellBoxes() const { throw std::logic_error("this mesh knows no points of its cells"); }
+
     // --- What p3m needs besides. The mesh part of the potential lives under boundary values of its own.
 
     /// This rank's cells and faces; valid while the mesh lives and does not move.

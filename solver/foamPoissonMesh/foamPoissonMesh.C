@@ -100,6 +100,17 @@ Vector3 foamPoissonMesh::electricField(Index cell) const
     return toEigen(electricField_[static_cast<label>(cell)]);
 }
 
+std::vector<Box> foamPoissonMesh::cellBoxes() const
+{
+    std::vector<Box> boxes(static_cast<std::size_t>(mesh_.nCells()));
+    for (Foam::label cell = 0; cell < mesh_.nCells(); ++cell) {
+        for (const Foam::label point : mesh_.cellPoints()[cell]) {
+            boxes[static_cast<std::size_t>(cell)].extend(toEigen(mesh_.points()[point]));
+        }
+    }
+    return boxes;
+}
+
 double foamPoissonMesh::potential(Index cell) const
 {
     const label index = static_cast<label>(cell);

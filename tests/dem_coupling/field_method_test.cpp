@@ -141,10 +141,23 @@ TEST_P(EveryMethod, countsEveryPairOnceForEachOfItsTwoParticles)
     const auto* p3m = dynamic_cast<const P3m*>(method.get());
     const double reach = p3m ? p3m->cloudRadius() : method->partnerCutoff();
     const DemParticles all = randomParticles(150, box.grownBy(-5.1e-3), 1e-3, 1e-11, Charges::random, 11);
+    // The cell methods pair by whole cells.
+    const bool touching = GetParam() == "himCell";
+    const bool byCentroids = GetParam() == "hybridParticleCell";
+    const auto isNear = [&](Index i, Index k) {
+        const auto cell = [](double x) { return std::floor(x / 2.5e-3); };
+        const Vector3 a = all.position.row(i).unaryExpr(cell).matrix().transpose();
+        const Vector3 b = all.position.row(k).unaryExpr(cell).matrix().transpose();
+        if (touching) {
+            return (a - b).cwiseAbs().maxCoeff() <= 1;
+        }
+        return byCentroids ? 2.5e-3 * (a - b).norm() <= 6e-3
+                           : (all.position.row(i) - all.position.row(k)).matrix().norm() <= reach;
+    };
     std::int64_t expected = 0;
     for (Index i = 0; i < all.size(); ++i) {
         for (Index k = 0; k < all.size(); ++k) {
-            expected += i != k && (all.position.row(i) - all.position.row(k)).matrix().norm() <= reach;
+            expected += i != k && isNear(i, k);
         }
     }
     ParticleField result;
@@ -223,7 +236,7 @@ TEST(FieldMethod, listsItsNamesWhenOneIsUnknown)
         FieldMethod::create(settingsOf("hmi"), nullptr, box, open, MPI_COMM_WORLD, times);
     });
     expectContains(text, "electrostaticProperties.fieldMethod: unknown field method \"hmi\"; known: pairwiseSum, "
-                         "directTruncation, him");
+                         "directTruncation, hybridParticleCell, him, himCell, p3m");
     EXPECT_THROW(FieldMethod::needsMesh("hmi"), std::invalid_argument);
 }
 
@@ -232,6 +245,10 @@ TEST(FieldMethod, knowsWhatEachMethodNeeds)
     EXPECT_FALSE(FieldMethod::needsMesh("pairwiseSum"));
     EXPECT_FALSE(FieldMethod::needsMesh("directTruncation"));
     EXPECT_TRUE(FieldMethod::needsMesh("him"));
+    EXPECT_TRUE(FieldMethod::needsMesh("himCell"));
+    EXPECT_TRUE(FieldMethod::needsMesh("hybridParticleCell"));
+    EXPECT_FALSE(FieldMethod::needsCutoff("himCell"));
+    EXPECT_TRUE(FieldMethod::needsCutoff("hybridParticleCell"));
     EXPECT_FALSE(FieldMethod::needsCutoff("pairwiseSum"));
     EXPECT_TRUE(FieldMethod::needsCutoff("directTruncation"));
     EXPECT_TRUE(FieldMethod::needsCutoff("him"));

@@ -80,7 +80,7 @@ class BadInput(unittest.TestCase):
 
     def test_unknown_method_lists_the_known_ones(self):
         self.case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod hum;")
-        self.refused("fieldMethod: unknown name `hum`; known: pairwiseSum, directTruncation, him, p3m.")
+        self.refused("fieldMethod: unknown name `hum`; known: pairwiseSum, directTruncation, hybridParticleCell, him, himCell, p3m.")
 
     def test_misspelt_entry_lists_the_known_ones(self):
         self.case.replace(ELECTROSTATIC, "externalField", "externalFeild")

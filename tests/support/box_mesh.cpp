@@ -50,6 +50,15 @@ BoxMesh::BoxMesh(const Box& box, const std::array<Index, 3>& cells, double permi
     makeArrays();
 }
 
+std::vector<Box> BoxMesh::cellBoxes() const
+{
+    std::vector<Box> boxes;
+    for (Index cell = 0; cell < cellCount(); ++cell) {
+        boxes.push_back({cellCentre(cell) - 0.5 * size_, cellCentre(cell) + 0.5 * size_});
+    }
+    return boxes;
+}
+
 void BoxMesh::makeArrays()
 {
     int rank = 0;

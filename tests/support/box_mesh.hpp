@@ -26,6 +26,7 @@ public:
     void solve(const Scalars& cellCharge) override;
     Vector3 electricField(Index cell) const override;
     double potential(Index cell) const override;
+    std::vector<Box> cellBoxes() const override;
     const MeshArrays& arrays() const override { return arrays_; }
     void solve(const Scalars& cellCharge, const Scalars& boundaryValue) override;
     void correct(const Scalars& residual) override;
