@@ -25,9 +25,9 @@ struct ImageWall {
 };
 
 struct PairwiseSumSettings {
-    bool images = false;                                           ///< mirror charges at imageWalls
+    bool images = false;                                          ///< mirror charges at imageWalls
     double truncation = std::numeric_limits<double>::infinity();  ///< leave out pairs (and images) farther apart [m]
-    std::vector<ImageWall> imageWalls;                             ///< from the DEM scene
+    std::vector<ImageWall> imageWalls;                            ///< from the DEM scene
 };
 
 struct HimSettings {
@@ -41,17 +41,18 @@ struct HimCellSettings {
 enum class PolynomialOrder { cubic = 3, quartic = 4 };
 
 struct P3mSettings {
-    double cloudRadius = 0;   ///< R [m]; 0: cloudCells times the largest cell size where particles are
-    double cloudCells = 2;    ///< R in cells, used when cloudRadius is 0
-    int cloudExponent = 0;    ///< k of (1 - (r/R)^2)^k, 1 or 2; 0: 1 below R = 2.3 cells, else 2
+    double cloudRadius = 0;  ///< R [m]; 0: cloudCells times the largest cell size where particles are
+    double cloudCells = 2;   ///< R in cells, used when cloudRadius is 0
+    int cloudExponent = 0;   ///< k of (1 - (r/R)^2)^k, 1 or 2; 0: 1 below R = 2.3 cells, else 2
     PolynomialOrder gather = PolynomialOrder::cubic;
     bool deferredCorrection = false;
-    bool selfTerm = false;    ///< subtract the interpolation of the particle's own cloud
+    bool selfTerm = false;  ///< subtract the interpolation of the particle's own cloud
 };
 
 /// Settings of every method; a method reads only what it knows.
 struct FieldSettings {
     std::string method;                       ///< run-time selected name
+    double accuracy = 0;                      ///< relative RMS field error asked for; 0: none
     double nearCutoff = 0;                    ///< r_c [m] of him, directTruncation, hybridParticleCell
     double permittivity = 0;                  ///< eps [F/m]
     Vector3 externalField = Vector3::Zero();  ///< [V/m], added to every method's field

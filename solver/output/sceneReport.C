@@ -2,7 +2,10 @@
 #include "output/runReport.H"
 #include "settings/checkedDictionary.H"
 
+#include "dem_coupling/accuracy_choice.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -59,6 +62,36 @@ std::string wallTable(const caseSettings& settings, const DemPort& dem, const fo
     return table.str();
 }
 
+/// "clouds of 3 cells, quartic gather, deferred correction"
+std::string cloudText(const P3mSettings& p3m)
+{
+    std::ostringstream text;
+    text << "clouds of " << (p3m.cloudRadius > 0 ? p3m.cloudRadius : p3m.cloudCells)
+         << (p3m.cloudRadius > 0 ? " m, " : " cells, ")
+         << (p3m.gather == PolynomialOrder::quartic ? "quartic" : "cubic") << " gather"
+         << (p3m.deferredCorrection ? ", deferred correction" : "");
+    return text.str();
+}
+
+/// What is to be expected of the settings in view of the accuracy that was asked for.
+std::string accuracyText(const FieldSettings& field)
+{
+    const double expected = expectedError(field);
+    std::ostringstream text;
+    text << "Accuracy " << field.accuracy << " asked for (relative RMS field error): ";
+    if (std::isnan(expected)) {
+        text << "WARNING: nothing is known of the error of these settings. Leave out fieldMethod and the entries of "
+                "p3mCoeffs to let accuracy choose.";
+    } else {
+        text << "expected at most " << expected << " between plane walls, about " << std::max(expected, curvedWallError)
+             << " between curved ones.";
+        if (expected > field.accuracy) {
+            text << " WARNING: the entries of p3mCoeffs win over accuracy and give less; leave them out.";
+        }
+    }
+    return text.str();
+}
+
 }  // namespace
 
 void printScene(const caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh, double deltaT,
@@ -74,6 +107,9 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
     if (FieldMethod::needsCutoff(field.method)) {
         Info << ", nearCutoff " << field.nearCutoff << " m";
     }
+    if (field.method == "p3m") {
+        Info << ", " << cloudText(field.p3m).c_str();
+    }
     if (mesh) {
         Info << ", largest cell diagonal " << mesh->largestCellDiagonal() << " m";
     }
@@ -81,6 +117,9 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
     Info << ", permittivity " << field.permittivity << " F/m, external field (" << e.x() << ' ' << e.y() << ' ' << e.z()
          << ") V/m\n\nClocks: field update every " << deltaT << " s = " << Foam::label(demSteps) << " DEM steps of "
          << dem.timeStep() << " s\n";
+    if (field.accuracy > 0) {
+        Info << accuracyText(field).c_str() << '\n';
+    }
     if (dem.ranBeforeHandOver()) {
         Info << "The DEM script ran steps of its own before the hand-over: with field and charging off.\n";
     }

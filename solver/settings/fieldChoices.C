@@ -3,6 +3,7 @@
 
 #include "settings/checkedDictionary.H"
 
+#include "dem_coupling/accuracy_choice.hpp"
 #include "electrostatics/constants.hpp"
 
 #include <algorithm>
@@ -23,10 +24,29 @@ void readP3m(checkedDictionary& coeffs, P3mSettings& settings)
     settings.cloudRadius = inMetres ? coeffs.positive("cloudRadius", 1) : 0;
     settings.cloudCells = coeffs.positive("cloudCells", settings.cloudCells);
     settings.cloudExponent = static_cast<int>(coeffs.nonNegativeInteger("cloudExponent", settings.cloudExponent));
-    settings.gather = coeffs.oneOf("gather", {"cubic", "quartic"}, "cubic") == "quartic" ? PolynomialOrder::quartic
-                                                                                         : PolynomialOrder::cubic;
+    const char* gather = settings.gather == PolynomialOrder::quartic ? "quartic" : "cubic";
+    settings.gather = coeffs.oneOf("gather", {"cubic", "quartic"}, gather) == "quartic" ? PolynomialOrder::quartic
+                                                                                        : PolynomialOrder::cubic;
     settings.deferredCorrection = coeffs.yesNo("deferredCorrection", settings.deferredCorrection);
     settings.selfTerm = coeffs.yesNo("selfTerm", settings.selfTerm);
+}
+
+/// The accuracy asked for, or 0.
+double readAccuracy(checkedDictionary& properties)
+{
+    if (!properties.has("accuracy")) {
+        return 0;
+    }
+    const double accuracy = properties.positive("accuracy", 1);
+    if (accuracy < smallestAccuracy()) {
+        properties.complain("accuracy", "found " + shown(accuracy)
+                                            + ", the smallest relative RMS field error that a method "
+                                              "is known to reach is "
+                                            + shown(smallestAccuracy())
+                                            + ". Ask for that much, or give fieldMethod and its entries.");
+        return 0;
+    }
+    return accuracy;
 }
 
 /// Entries of settings.method in its sub-dictionary, which may be absent.
@@ -66,7 +86,9 @@ std::vector<std::string> fieldChoices::names() const
 fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& complaints)
 {
     checkedDictionary properties(casePath, "constant/electrostaticProperties", complaints);
-    const std::string selected = properties.oneOf("fieldMethod", FieldMethod::names());
+    const bool byAccuracy = properties.has("accuracy");
+    const double accuracy = readAccuracy(properties);
+    const std::string selected = properties.oneOf("fieldMethod", FieldMethod::names(), byAccuracy ? "p3m" : "");
     FieldSettings common;
     common.externalField = properties.vector("externalField", Vector3::Zero());
     common.permittivity = epsilon0 * properties.positive("relativePermittivity", 1);
@@ -78,6 +100,10 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
     for (const std::string& method : FieldMethod::names()) {
         fieldChoice choice{method, common};
         choice.settings.method = method;
+        if (accuracy > 0 && method == selected) {
+            choice.settings.accuracy = accuracy;
+            choice.settings.p3m = chooseForAccuracy(accuracy).p3m;  // entries of the case win
+        }
         const bool required = method == selected && FieldMethod::needsCutoff(method);
         checkedDictionary coeffs = properties.section(method + "Coeffs", !required);
         readCoeffs(coeffs, choice.settings);

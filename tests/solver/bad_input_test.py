@@ -84,7 +84,7 @@ class BadInput(unittest.TestCase):
 
     def test_misspelt_entry_lists_the_known_ones(self):
         self.case.replace(ELECTROSTATIC, "externalField", "externalFeild")
-        self.refused("externalFeild: unknown entry; known: fieldMethod, externalField, relativePermittivity")
+        self.refused("externalFeild: unknown entry; known: accuracy, fieldMethod, externalField, relativePermittivity")
 
     def test_unknown_choice_lists_the_known_ones(self):
         self.case.replace(COUPLING, "wallContactField total;", "wallContactField all;")

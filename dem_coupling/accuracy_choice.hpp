@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/field_settings.hpp"
+
+namespace him {
+
+/// Field method for a relative RMS field error [-], and the error that it was measured to have.
+struct AccuracyChoice {
+    P3mSettings p3m;
+    double expected = 0;  ///< RMS|E - E_exact|/RMS|E_exact|, worst of the measured scenes with plane walls
+};
+
+/// Smallest error that chooseForAccuracy can promise.
+double smallestAccuracy();
+
+/// Error in a sphere of nine diameters, cells of one diameter: the flat faces of the mesh make it, whatever the clouds are.
+constexpr double curvedWallError = 0.016;
+
+/// The cheapest setting of p3m whose error was at most `accuracy` in every measured scene with plane walls: clouds of +-q and
+/// of like charges, beds, wall layers, on cells of one and two particle diameters, hexahedral and polyhedral
+/// (cases/speedAgainstError/doc/report.md). Throws std::invalid_argument unless accuracy >= smallestAccuracy().
+AccuracyChoice chooseForAccuracy(double accuracy);
+
+/// Error that was measured for settings like these in the worst scene with plane walls. NaN where nobody has measured it:
+/// other methods than p3m, clouds in metres, a plain gather with large clouds.
+double expectedError(const FieldSettings& settings);
+
+}  // namespace him

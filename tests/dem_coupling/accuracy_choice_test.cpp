@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/accuracy_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace him {
+namespace {
+
+FieldSettings p3mOf(const P3mSettings& p3m)
+{
+    FieldSettings settings;
+    settings.method = "p3m";
+    settings.p3m = p3m;
+    return settings;
+}
+
+TEST(AccuracyChoice, takesTheCheapestCloudsThatAreGoodEnough)
+{
+    EXPECT_EQ(chooseForAccuracy(0.5).p3m.cloudCells, 2);
+    EXPECT_EQ(chooseForAccuracy(0.055).p3m.cloudCells, 2);
+    EXPECT_EQ(chooseForAccuracy(0.054).p3m.cloudCells, 3);
+    EXPECT_EQ(chooseForAccuracy(0.01).p3m.cloudCells, 4);
+    EXPECT_EQ(chooseForAccuracy(0.003).p3m.cloudCells, 6);
+}
+
+TEST(AccuracyChoice, takesTheBetterGatherAndTheCorrectionWithLargeClouds)
+{
+    EXPECT_EQ(chooseForAccuracy(0.1).p3m.gather, PolynomialOrder::cubic);
+    EXPECT_FALSE(chooseForAccuracy(0.1).p3m.deferredCorrection);
+    EXPECT_EQ(chooseForAccuracy(0.02).p3m.gather, PolynomialOrder::quartic);
+    EXPECT_TRUE(chooseForAccuracy(0.02).p3m.deferredCorrection);
+}
+
+TEST(AccuracyChoice, expectsNoMoreThanWasAskedFor)
+{
+    for (double accuracy = 1; accuracy >= smallestAccuracy(); accuracy *= 0.9) {
+        const AccuracyChoice choice = chooseForAccuracy(accuracy);
+        EXPECT_LE(choice.expected, accuracy);
+        EXPECT_EQ(expectedError(p3mOf(choice.p3m)), choice.expected);
+    }
+}
+
+TEST(AccuracyChoice, refusesWhatNoSettingReaches)
+{
+    EXPECT_NO_THROW(chooseForAccuracy(smallestAccuracy()));
+    EXPECT_THROW(chooseForAccuracy(0.99 * smallestAccuracy()), std::invalid_argument);
+    EXPECT_THROW(chooseForAccuracy(std::nan("")), std::invalid_argument);
+}
+
+TEST(AccuracyChoice, expectsTheErrorOfTheWeakestPart)
+{
+    P3mSettings large = chooseForAccuracy(0.005).p3m;
+    large.gather = PolynomialOrder::cubic;
+    EXPECT_EQ(expectedError(p3mOf(large)), 0.055);
+    P3mSettings small;
+    small.cloudCells = 1.8;
+    EXPECT_TRUE(std::isnan(expectedError(p3mOf(small))));
+    FieldSettings him;
+    him.method = "him";
+    EXPECT_TRUE(std::isnan(expectedError(him)));
+}
+
+}  // namespace
+}  // namespace him

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`accuracy` chooses the field method and its settings; explicit entries win, and the log says what to expect."""
+
+import tempfile
+import unittest
+
+from tiny_case import TinyCase
+
+ELECTROSTATIC = "constant/electrostaticProperties"
+
+
+class Accuracy(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.original = TinyCase(cls.folder.name + "/original")
+        cls.count = 0
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def run_with(self, entries, *options, code=0, ranks=1):
+        """The case, run with these entries in place of fieldMethod, and what it said."""
+        Accuracy.count += 1
+        case = TinyCase.copy(self.original.path, "%s/case%d" % (self.folder.name, self.count))
+        case.replace(ELECTROSTATIC, "fieldMethod him;", entries)
+        case.replace("system/controlDict", "writeInterval 2;", "writeInterval 1;")
+        if ranks > 1:
+            case.decompose(ranks)
+        result = case.run(*options, ranks=ranks)
+        self.assertEqual(result.code, code, result.text)
+        return case, result.text
+
+    def fields(self, case):
+        return [value for _, one in sorted(case.particles("0.001").items()) for value in one["electricField"]]
+
+    def test_the_choice_is_the_same_as_its_entries_written_out(self):
+        chosen, text = self.run_with("accuracy 0.02;")
+        self.assertIn("Field method p3m, clouds of 3 cells, quartic gather, deferred correction", text)
+        self.assertIn("Accuracy 0.02 asked for (relative RMS field error): expected at most 0.012 between plane walls", text)
+        self.assertNotIn("WARNING: the entries", text)
+        written, text = self.run_with(
+            "fieldMethod p3m; p3mCoeffs { cloudCells 3; gather quartic; deferredCorrection yes; }")
+        self.assertNotIn("Accuracy", text)
+        self.assertEqual(self.fields(chosen), self.fields(written))
+        coarse, _ = self.run_with("accuracy 0.1;")
+        self.assertNotEqual(self.fields(chosen), self.fields(coarse))
+
+    def test_two_ranks_choose_and_get_the_same(self):
+        serial = self.fields(self.run_with("accuracy 0.02;")[0])
+        parallel = self.fields(self.run_with("accuracy 0.02;", ranks=2)[0])
+        largest = max(map(abs, serial))
+        self.assertEqual(len(serial), len(parallel))
+        for one, other in zip(serial, parallel):
+            self.assertAlmostEqual(one, other, delta=1e-6 * largest)
+
+    def test_entries_of_the_method_win_and_are_warned_of(self):
+        _, text = self.run_with("accuracy 0.02; p3mCoeffs { gather cubic; }", "-dry-run")
+        self.assertIn("clouds of 3 cells, cubic gather, deferred correction", text)
+        self.assertIn("expected at most 0.055", text)
+        self.assertIn("WARNING: the entries of p3mCoeffs win over accuracy", text)
+
+    def test_another_method_wins_and_is_warned_of(self):
+        _, text = self.run_with("accuracy 0.02; fieldMethod him;", "-dry-run")
+        self.assertIn("Field method him", text)
+        self.assertIn("WARNING: nothing is known of the error of these settings. Leave out fieldMethod", text)
+
+    def test_an_accuracy_that_nothing_reaches_is_refused(self):
+        _, text = self.run_with("accuracy 1e-4;", "-dry-run", code=1)
+        self.assertIn("accuracy: found 0.0001, the smallest relative RMS field error that a method is known to reach is 0.0012",
+                      text)
+
+    def test_an_accuracy_that_is_not_positive_is_refused(self):
+        _, text = self.run_with("accuracy -0.1;", "-dry-run", code=1)
+        self.assertIn("accuracy: found -0.1, but a number above zero is expected", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
