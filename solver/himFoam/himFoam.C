@@ -21,6 +21,7 @@ SourceFiles
 \*---------------------------------------------------------------------------*/
 #include "himFoam/scene.H"
 #include "output/chargeTable.H"
+#include "output/fieldErrorTable.H"
 #include "output/particleWriter.H"
 #include "output/runReport.H"
 #include "parallel/session.H"
@@ -74,11 +75,14 @@ void run(scene& s, MPI_Comm communicator)
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     chargeTable charge(runTime, s.dem->walls());
+    fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->periodic(),
+                               communicator);
     runReport report(runTime, times, s.settings.logInterval);
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     step.start();
     charge.write(runTime.value(), step.summary(), step.books());
+    fieldError.update(step);
     const double deltaT = runTime.deltaTValue();
     while (runTime.loop()) {
         if (runTime.deltaTValue() != deltaT) {
@@ -90,6 +94,10 @@ void run(scene& s, MPI_Comm communicator)
             charge.write(runTime.value(), step.summary(), step.books());
         }
         write(s, step, *particles, times);
+        {
+            const PhaseTimer timer(times, Phase::output);
+            fieldError.update(step);
+        }
         report.endStep(step);
     }
     report.printSummary(step, *s.dem, communicator);

@@ -25,7 +25,9 @@ bool existsInCase(const Foam::fileName& path)
 caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& complaints)
 {
     caseSettings settings;
-    settings.field = readFieldChoices(casePath, complaints).selected;
+    const fieldChoices choices = readFieldChoices(casePath, complaints);
+    settings.field = choices.selected;
+    settings.fieldError = choices.fieldError;
     settings.needsMesh = settings.field.method.empty() ? hasElectricMesh(casePath)
                                                        : FieldMethod::needsMesh(settings.field.method);
 

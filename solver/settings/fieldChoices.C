@@ -49,6 +49,17 @@ double readAccuracy(checkedDictionary& properties)
     return accuracy;
 }
 
+FieldErrorSettings readFieldError(checkedDictionary& properties)
+{
+    FieldErrorSettings settings;
+    checkedDictionary entries = properties.section("fieldError", true);
+    settings.active = entries.yesNo("active", settings.active);
+    settings.interval = entries.nonNegativeInteger("interval", settings.interval);
+    settings.sample = entries.positiveInteger("sample", settings.sample);
+    entries.refuseUnknownEntries();
+    return settings;
+}
+
 /// Entries of settings.method in its sub-dictionary, which may be absent.
 void readCoeffs(checkedDictionary& coeffs, FieldSettings& settings)
 {
@@ -97,6 +108,7 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
 
     fieldChoices choices;
     choices.selected = common;
+    choices.fieldError = readFieldError(properties);
     for (const std::string& method : FieldMethod::names()) {
         fieldChoice choice{method, common};
         choice.settings.method = method;

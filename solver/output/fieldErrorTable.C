@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output/fieldErrorTable.H"
+
+#include "settings/checkedDictionary.H"
+
+#include "OSspecific.H"
+#include "Pstream.H"
+
+namespace him {
+
+fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSettings& errorSettings,
+                                 const FieldSettings& settings, const PoissonMesh* mesh,
+                                 const std::array<bool, 3>& periodic, MPI_Comm communicator)
+    : runTime_(runTime),
+      monitor_(errorSettings,
+               errorSettings.active ? FieldReference::find(settings, mesh, periodic, communicator) : nullptr,
+               settings.externalField, communicator),
+      start_(Clock::now())
+{
+    if (!errorSettings.active) {
+        return;
+    }
+    if (monitor_.reference().empty()) {
+        Foam::Info << "Field error: n/a, there is no exact reference for " << settings.method.c_str()
+                   << " here (a rectangular box of grounded, insulated or periodic sides has one)" << Foam::endl;
+        return;
+    }
+    Foam::Info << "Field error: measured against " << monitor_.reference().c_str() << Foam::endl;
+    if (Foam::Pstream::master()) {
+        openFile();
+    }
+}
+
+void fieldErrorTable::openFile()
+{
+    const Foam::fileName folder = runTime_.globalPath() / "postProcessing" / "fieldError" / runTime_.timeName();
+    Foam::mkDir(folder);
+    file_.open(folder / "fieldError.dat");
+    file_.precision(6);
+    file_ << "# Error of the field at a sample of the particles, against " << monitor_.reference() << ".\n"
+          << "# rms and largest are relative to referenceRms [V/m]; sample: particles; seconds: of the measurement.\n"
+          << "# Time sample rms largest referenceRms seconds" << std::endl;
+}
+
+void fieldErrorTable::update(const CoupledStep& step)
+{
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (monitor_.due(updates_++, seconds)) {
+        report(monitor_.measure(step.particles(), step.field().field));
+    }
+}
+
+void fieldErrorTable::report(const FieldError& error)
+{
+    if (!error.failure.empty()) {
+        Foam::Info << "Field error: not measured at " << runTime_.timeName() << " s, " << error.failure.c_str()
+                   << Foam::endl;
+        return;
+    }
+    Foam::Info << "Field error: rms " << shown(error.rms, 3).c_str() << ", largest " << shown(error.largest, 3).c_str()
+               << " of the rms field, " << error.sample << " particles, " << shown(error.seconds, 2).c_str() << " s"
+               << Foam::endl;
+    if (file_.is_open()) {
+        file_ << runTime_.value() << ' ' << error.sample << ' ' << error.rms << ' ' << error.largest << ' '
+              << error.referenceRms << ' ' << error.seconds << std::endl;
+    }
+}
+
+}  // namespace him

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run says how wrong its own field is, against the exact field of the box."""
+
+import tempfile
+import unittest
+
+from tiny_case import TinyCase
+
+ELECTROSTATIC = "constant/electrostaticProperties"
+
+
+def table(case):
+    """Rows of fieldError.dat by column name; none when there is no file."""
+    file = case.path / "postProcessing/fieldError/0/fieldError.dat"
+    if not file.exists():
+        return []
+    lines = file.read_text().splitlines()
+    names = [line for line in lines if line.startswith("#")][-1][1:].split()
+    return [dict(zip(names, map(float, line.split()))) for line in lines if not line.startswith("#")]
+
+
+class FieldErrorOfARun(unittest.TestCase):
+    def run_case(self, method="him", entry="fieldError { interval 1; }", ranks=1):
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder, method)
+            case.replace(ELECTROSTATIC, "relativePermittivity 1;", "relativePermittivity 1; " + entry)
+            if ranks > 1:
+                case.decompose(ranks)
+            result = case.run(ranks=ranks)
+            return result, table(case)
+
+    def test_is_measured_at_every_interval(self):
+        result, rows = self.run_case()
+        self.assertEqual(result.code, 0, result.text)
+        self.assertEqual([row["Time"] for row in rows], [0, 1e-3, 2e-3])
+        self.assertEqual(result.text.count("Field error: rms "), 3)
+        for row in rows:
+            self.assertEqual(row["sample"], 8)
+            self.assertGreater(row["referenceRms"], 1e3)
+            self.assertGreater(row["rms"], 1e-3)  # two of the eight touch, whose pair dominates
+            self.assertLess(row["rms"], 0.5)
+            self.assertGreaterEqual(row["largest"], row["rms"])
+
+    def test_of_p3m_is_small(self):
+        result, rows = self.run_case("p3m")
+        self.assertEqual(result.code, 0, result.text)
+        _, him = self.run_case("him")
+        self.assertEqual(len(rows), 3)
+        self.assertLess(rows[0]["rms"], 0.2 * him[0]["rms"])
+
+    def test_is_the_same_on_two_ranks(self):
+        _, serial = self.run_case()
+        result, parallel = self.run_case(ranks=2)
+        self.assertEqual(result.code, 0, result.text)
+        for name in ("sample", "rms", "largest", "referenceRms"):
+            self.assertAlmostEqual(parallel[0][name] / serial[0][name], 1, delta=1e-4, msg=name)
+
+    def test_takes_the_first_field_without_an_entry(self):
+        result, rows = self.run_case(entry="")
+        self.assertEqual(result.code, 0, result.text)
+        self.assertEqual(rows[0]["Time"], 0)
+
+    def test_can_be_switched_off(self):
+        result, rows = self.run_case(entry="fieldError { active no; }")
+        self.assertEqual(result.code, 0, result.text)
+        self.assertEqual(rows, [])
+        self.assertNotIn("Field error", result.text)
+
+    def test_says_where_nothing_exact_is_known(self):
+        result, rows = self.run_case("pairwiseSum")
+        self.assertEqual(result.code, 0, result.text)
+        self.assertEqual(rows, [])
+        self.assertIn("Field error: n/a, there is no exact reference for pairwiseSum here", result.text)
+
+    def test_refuses_nonsense(self):
+        result, _ = self.run_case(entry="fieldError { sample 0; interval -1; often yes; }")
+        self.assertEqual(result.code, 1)
+        flat = " ".join(result.text.split())
+        for text in ("fieldError: sample: ", "fieldError: interval: ", "fieldError: often: unknown entry"):
+            self.assertIn(text, flat)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
