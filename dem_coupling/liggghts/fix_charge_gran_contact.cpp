@@ -147,7 +147,7 @@ int FixChargeGranContact::setmask()
 
 void FixChargeGranContact::init()
 {
-    field_ = static_cast<FixCoupleCfdEfield*>(modify->find_fix_style("couple/cfd/efield", 0));
+    field_ = FixCoupleCfdEfield::find(lmp);
     refreshWalls();
     const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
     transfer_.setMinimumImage(periodic ? shortenInBox : nullptr, domain);

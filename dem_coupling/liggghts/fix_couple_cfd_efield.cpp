@@ -7,8 +7,10 @@
 #include "comm.h"
 #include "error.h"
 #include "memory.h"
+#include "modify.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace him {
 namespace {
@@ -19,7 +21,7 @@ constexpr int width = HeldField::width;
 
 FixCoupleCfdEfield::FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg) : Fix(liggghts, narg, arg)
 {
-    if (narg != 3) {
+    if (narg != 3 && std::strcmp(style, "couple/cfd/efield") == 0) {
         error->fix_error(FLERR, this, "takes no keywords");
     }
     if (!atom->q_flag) {
@@ -45,6 +47,16 @@ FixCoupleCfdEfield::~FixCoupleCfdEfield()
     atom->delete_callback(id, 0);
     atom->delete_callback(id, 2);
     memory->destroy(held_);
+}
+
+FixCoupleCfdEfield* FixCoupleCfdEfield::find(LAMMPS_NS::LAMMPS* lmp)
+{
+    for (int i = 0; i < lmp->modify->nfix; ++i) {
+        if (auto* field = dynamic_cast<FixCoupleCfdEfield*>(lmp->modify->fix[i])) {
+            return field;
+        }
+    }
+    return nullptr;
 }
 
 void FixCoupleCfdEfield::setField(const Points& field)

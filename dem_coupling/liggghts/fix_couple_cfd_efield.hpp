@@ -18,6 +18,9 @@ public:
     FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
     ~FixCoupleCfdEfield() override;
 
+    /// The fix of this LIGGGHTS instance that holds the field, of this style or one derived from it, or null.
+    static FixCoupleCfdEfield* find(LAMMPS_NS::LAMMPS* lmp);
+
     /// Field [V/m] at the owned particles, in the order of their rows. Collective: ghosts get it too, before the first set-up
     /// when they are made.
     void setField(const Points& field);
@@ -39,9 +42,11 @@ public:
     int pack_comm(int n, int* list, double* buffer, int pbcFlag, int* pbc) override;
     void unpack_comm(int n, int first, double* buffer) override;
 
-private:
-    double** held_ = nullptr;
+protected:
+    double** held_ = nullptr;  ///< see HeldField
     bool ghostsExist_ = false;
+
+private:
     std::int64_t arrivals_ = 0;
 };
 

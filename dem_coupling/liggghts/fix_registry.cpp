@@ -2,7 +2,9 @@
 #include "dem_coupling/liggghts/fix_registry.hpp"
 
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
+#include "dem_coupling/liggghts/fix_constrain_plane.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
+#include "dem_coupling/liggghts/fix_efield_him.hpp"
 #include "dem_coupling/liggghts/private_access.hpp"
 
 #include "lammps.h"
@@ -36,7 +38,9 @@ void registerFixes(LAMMPS_NS::LAMMPS* lmp)
     auto& styles = *(lmp->modify->*memberOf(FixMap{}));
     const std::map<std::string, FixCreator> ours{
         {"charge/gran/contact", &create<FixChargeGranContact>},
+        {"constrain/plane", &create<FixConstrainPlane>},
         {"couple/cfd/efield", &create<FixCoupleCfdEfield>},
+        {"efield/him", &create<FixEfieldHim>},
     };
     for (const auto& [name, creator] : ours) {
         if (!styles.emplace(name, creator).second) {

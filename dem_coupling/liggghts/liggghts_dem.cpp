@@ -2,7 +2,9 @@
 #include "dem_coupling/liggghts/liggghts_dem.hpp"
 
 #include "dem_coupling/liggghts/contact_models.hpp"
+#include "dem_coupling/liggghts/fix_efield_him.hpp"
 #include "dem_coupling/liggghts/fix_registry.hpp"
+#include "dem_coupling/liggghts/particle_rows.hpp"
 #include "dem_coupling/liggghts/private_access.hpp"
 
 #include "atom.h"
@@ -156,6 +158,10 @@ Complaints LiggghtsDem::check() const
             script_,
             "superquadric particles found; only spheres carry charge here. Use 'atom_style hybrid granular charge'.");
     }
+    if (const auto* fix = dynamic_cast<FixEfieldHim*>(FixCoupleCfdEfield::find(lmp_.get()))) {
+        complaints.add(script_, "fix " + std::string(fix->id) + " of style efield/him found, which computes the field in "
+                                    "liggghtsHim. Here fieldMethod in constant/electrostaticProperties does. Remove the fix.");
+    }
     if (charging_) {
         checkContactModels(complaints);
         checkPairs(complaints);
@@ -255,21 +261,7 @@ void LiggghtsDem::handOver()
 
 void LiggghtsDem::particles(DemParticles& out) const
 {
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
-    const int n = atom.nlocal;
-    out.tag.assign(atom.tag, atom.tag + n);
-    out.type.assign(atom.type, atom.type + n);
-    out.position.resize(n, 3);
-    out.velocity.resize(n, 3);
-    for (int i = 0; i < n; ++i) {
-        for (int d = 0; d < 3; ++d) {
-            out.position(i, d) = atom.x[i][d];
-            out.velocity(i, d) = atom.v[i][d];
-        }
-    }
-    out.charge = Eigen::Map<const Scalars>(atom.q, n);
-    out.radius = Eigen::Map<const Scalars>(atom.radius, n);
-    out.mass = Eigen::Map<const Scalars>(atom.rmass, n);
+    readRows(*lmp_->atom, out);
 }
 
 void LiggghtsDem::setField(const DemParticles& particles, const Points& field)

@@ -67,14 +67,16 @@ class Run:
 
     columns = "id x y z vx vy vz q".split()
 
-    def __init__(self, text, steps, ranks=1, files=None, dump_every=None, thermo="f_tribo[1]"):
+    def __init__(self, text, steps, ranks=1, files=None, dump_every=None, thermo="f_tribo[1]", extra=""):
+        """`extra`: more columns of the dump, like "f_field[1] omegax"."""
+        self.columns = self.columns + extra.split()
         with tempfile.TemporaryDirectory() as folder:
             for name, content in (files or {}).items():
                 pathlib.Path(folder, name).write_text(content)
             every = dump_every or max(steps, 1)
             text += f"""
-dump out all custom {every} out.dump id x y z vx vy vz q
-dump_modify out format "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g" sort id
+dump out all custom {every} out.dump {' '.join(self.columns)}
+dump_modify out format "%d {' '.join(['%.17g'] * (len(self.columns) - 1))}" sort id
 thermo_style custom step atoms {thermo}
 thermo_modify format float %.17g
 thermo {every}
