@@ -15,6 +15,8 @@ fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSett
       monitor_(errorSettings,
                errorSettings.active ? FieldReference::find(settings, mesh, periodic, communicator) : nullptr,
                settings.externalField, communicator),
+      method_(settings.method),
+      accuracy_(settings.accuracy),
       start_(Clock::now())
 {
     if (!errorSettings.active) {
@@ -60,6 +62,13 @@ void fieldErrorTable::report(const FieldError& error)
     Foam::Info << "Field error: rms " << shown(error.rms, 3).c_str() << ", largest " << shown(error.largest, 3).c_str()
                << " of the rms field, " << error.sample << " particles, " << shown(error.seconds, 2).c_str() << " s"
                << Foam::endl;
+    if (accuracy_ > 0 && error.rms > accuracy_) {
+        Foam::Info << "WARNING: constant/electrostaticProperties asks for accuracy " << accuracy_ << " and the field has "
+                   << shown(error.rms, 3).c_str() << ". "
+                   << (method_ == "p3m" ? "Ask for a smaller accuracy, raise p3mCoeffs.cloudCells, or refine the mesh."
+                                        : "Set fieldMethod to p3m, or leave it out, so that accuracy chooses.")
+                   << Foam::endl;
+    }
     if (file_.is_open()) {
         file_ << runTime_.value() << ' ' << error.sample << ' ' << error.rms << ' ' << error.largest << ' '
               << error.referenceRms << ' ' << error.seconds << std::endl;

@@ -95,9 +95,16 @@ void checkedDictionary::complain(const std::string& entry, const std::string& wh
     complaints_.get().add(where_ + ": " + entry, what);
 }
 
+void checkedDictionary::know(const std::string& entry)
+{
+    if (std::find(known_.begin(), known_.end(), entry) == known_.end()) {
+        known_.push_back(entry);
+    }
+}
+
 bool checkedDictionary::absent(const std::string& entry, bool required)
 {
-    known_.push_back(entry);
+    know(entry);
     if (contents_.found(entry)) {
         return false;
     }
@@ -270,7 +277,7 @@ std::vector<std::pair<std::string, std::string>> checkedDictionary::words()
 {
     std::vector<std::pair<std::string, std::string>> all;
     for (const Foam::word& entry : contents_.toc()) {
-        known_.push_back(entry);
+        know(entry);
         Foam::word value;
         if (read(entry, "one word", value)) {
             all.emplace_back(entry, value);

@@ -66,6 +66,15 @@ class FieldErrorOfARun(unittest.TestCase):
         self.assertEqual(rows, [])
         self.assertNotIn("Field error", result.text)
 
+    def test_above_the_accuracy_asked_for_is_warned_of(self):
+        missed, rows = self.run_case("him", "accuracy 0.002; fieldError { interval 1; }")
+        self.assertGreater(rows[0]["rms"], 0.002)
+        self.assertIn("asks for accuracy 0.002 and the field has", missed.text)
+        self.assertIn("Set fieldMethod to p3m", missed.text)
+        met, rows = self.run_case("him", "accuracy 0.9; fieldError { interval 1; }")
+        self.assertLess(rows[0]["rms"], 0.9)
+        self.assertNotIn("asks for accuracy", met.text)
+
     def test_says_where_nothing_exact_is_known(self):
         result, rows = self.run_case("pairwiseSum")
         self.assertEqual(result.code, 0, result.text)

@@ -102,7 +102,7 @@ class Field(unittest.TestCase):
         for a, b in zip(found(run.last[2]), (1000 + strength, 200, -3)):
             self.assertAlmostEqual(a, b, delta=1e-9)
         self.assertAlmostEqual(float(run.thermo[-1][2]), math.hypot(1000 + strength, 200, 3), delta=1e-6)
-        self.assertEqual(float(run.thermo[-1][3]), 1)
+        self.assertEqual(float(run.thermo[-1][3]), 2)  # the one pair, counted at each of its two charges
 
     def test_the_field_is_the_same_on_one_two_and_four_ranks(self):
         # Fast enough to cross rank boundaries at x = 0 and y = 0 within the run.
@@ -129,7 +129,7 @@ class Field(unittest.TestCase):
 class Motion(unittest.TestCase):
     def test_kinetic_and_electrostatic_energy_together_stay_constant(self):
         start = [(-4e-3, 1e-3, 5e-3, 0.0, 0.02, 0.0, 3e-9), (4e-3, 0.0, 6e-3, 0.0, 0.0, 0.0, -3e-9), (0.0, 6e-3, 9e-3, 0.0, 0.0, 0.0, 2e-9)]
-        run = Run(script(start, FLOOR, FIELD + " images yes", step=STEP / 2), 2000, dump_every=100, thermo="ke f_field")
+        run = Run(script(start, FLOOR, FIELD + " images yes", step=STEP / 2), 3000, dump_every=100, thermo="ke f_field")
         energies = [(float(line[2]), float(line[3])) for line in run.thermo]
         total = [kinetic + potential for kinetic, potential in energies]
         change = abs(energies[-1][0] - energies[0][0])
@@ -209,6 +209,21 @@ class Charging(unittest.TestCase):
         self.assertGreater(without.charge(2), 1e-15)
         # 1e-13 C moves the spheres by far less than the last digits that charge depends on
         self.assertAlmostEqual(with_field.charge(2) / without.charge(2), 1, delta=1e-6)
+
+
+class ExampleOfThePage(unittest.TestCase):
+    def test_the_script_on_the_documentation_page_runs_and_charges_both_spheres(self):
+        page = pathlib.Path(__file__).resolve().parents[3] / "dem_coupling/doc/liggghts_him.md"
+        lines = page.read_text().split("becomes a charged one")[1].split("Charging is on")[0].splitlines()
+        text = "\n".join(line[4:].split("#+")[0] for line in lines if line.startswith("    "))
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "in.page").write_text(text + "\n")
+            done = subprocess.run([PROGRAM, "-in", "in.page", "-log", "none"], cwd=folder, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, encoding="latin-1", timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout[-1500:])
+        last = [line.split() for line in done.stdout.splitlines() if line.split()[:1] == ["5000"]][0]
+        self.assertGreater(float(last[3]), 0, "the floor must have been given what the spheres lost")
+        self.assertGreater(float(last[4]), 0, "the charged spheres must feel a field")
 
 
 class Refusals(unittest.TestCase):
