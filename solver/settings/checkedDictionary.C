@@ -9,7 +9,10 @@
 #include "Pstream.H"
 #include "StringStream.H"
 #include "Switch.H"
+#include "Tuple2.H"
+#include "scalarList.H"
 #include "vector.H"
+#include "wordList.H"
 
 #include <algorithm>
 #include <fstream>
@@ -37,6 +40,24 @@ std::optional<Foam::string> textOf(const Foam::fileName& path)
         return {};
     }
     return text;
+}
+
+/// Reads `value` or `value (lower upper)`.
+Foam::Istream& operator>>(Foam::Istream& stream, ValueWithEnds& number)
+{
+    Foam::scalar value = 0;
+    stream >> value;
+    number = {value, value, value};
+    if (!stream.eof() && static_cast<Foam::ITstream&>(stream).nRemainingTokens()) {
+        Foam::scalarList ends;
+        stream >> ends;
+        if (ends.size() != 2) {
+            FatalIOErrorInFunction(stream) << "two ends are expected" << Foam::exit(Foam::FatalIOError);
+        }
+        number.lower = ends[0];
+        number.upper = ends[1];
+    }
+    return stream;
 }
 
 }  // namespace
@@ -271,6 +292,56 @@ std::vector<std::string> checkedDictionary::sectionsWith(const std::string& entr
         }
     }
     return names;
+}
+
+std::vector<std::string> checkedDictionary::sections() const
+{
+    std::vector<std::string> names;
+    for (const Foam::entry& candidate : contents_) {
+        if (candidate.isDict()) {
+            names.push_back(candidate.keyword());
+        }
+    }
+    return names;
+}
+
+std::optional<ValueWithEnds> checkedDictionary::valueWithEnds(const std::string& entry, bool required)
+{
+    ValueWithEnds value;
+    if (absent(entry, required) || !read(entry, "a number, or a number and its interval like 5 (4 6),", value)) {
+        return {};
+    }
+    return value;
+}
+
+std::vector<double> checkedDictionary::numbers(const std::string& entry)
+{
+    Foam::scalarList list;
+    if (absent(entry, false) || !read(entry, "a list of numbers like (1 2)", list)) {
+        return {};
+    }
+    return {list.begin(), list.end()};
+}
+
+std::vector<std::pair<double, double>> checkedDictionary::pairs(const std::string& entry)
+{
+    Foam::List<Foam::Tuple2<Foam::scalar, Foam::scalar>> list;
+    std::vector<std::pair<double, double>> all;
+    if (!absent(entry, false) && read(entry, "a list of pairs like ((0 0) (2 -1e-10))", list)) {
+        for (const Foam::Tuple2<Foam::scalar, Foam::scalar>& pair : list) {
+            all.emplace_back(pair.first(), pair.second());
+        }
+    }
+    return all;
+}
+
+std::vector<std::string> checkedDictionary::names(const std::string& entry)
+{
+    Foam::wordList list;
+    if (absent(entry, false) || !read(entry, "a list of names like (small large)", list)) {
+        return {};
+    }
+    return {list.begin(), list.end()};
 }
 
 std::vector<std::pair<std::string, std::string>> checkedDictionary::words()
