@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/gas/drag_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace him {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Below this Reynolds number laws with Re in a denominator or a logarithm take their limit: no sum changes in its last digit.
+constexpr double creeping = 1e-12;
+
+/// Stokes' 3 pi mu d [kg/s], the measure of all laws.
+double stokes(const DragPoint& at)
+{
+    return 3 * pi * at.viscosity * at.diameter;
+}
+
+using Entry = std::pair<const char*, double (*)(const DragPoint&)>;
+constexpr std::array<Entry, 6> laws{{{"WenYu", &wenYuDrag},
+                                     {"SchillerNaumann", &schillerNaumannDrag},
+                                     {"Gidaspow", &gidaspowDrag},
+                                     {"Beetstra", &beetstraDrag},
+                                     {"DiFelice", &diFeliceDrag},
+                                     {"KochHill", &kochHillDrag}}};
+
+}  // namespace
+
+std::vector<std::string> dragLawNames()
+{
+    std::vector<std::string> names;
+    for (const Entry& law : laws) {
+        names.emplace_back(law.first);
+    }
+    return names;
+}
+
+DragLaw makeDragLaw(const std::string& name)
+{
+    const auto found = std::find_if(laws.begin(), laws.end(), [&](const Entry& law) { return name == law.first; });
+    if (found == laws.end()) {
+        std::string known;
+        for (const std::string& law : dragLawNames()) {
+            known += (known.empty() ? "" : ", ") + law;
+        }
+        throw std::invalid_argument("unknown drag law '" + name + "'; known: " + known);
+    }
+    return found->second;
+}
+
+double superficialReynolds(const DragPoint& at)
+{
+    return at.voidFraction * at.density * at.slip * at.diameter / at.viscosity;
+}
+
+double singleSphereDragTimesReynolds(double reynolds)
+{
+    return reynolds < 1000 ? 24 * (1 + 0.15 * std::pow(reynolds, 0.687)) : 0.44 * reynolds;
+}
+
+double wenYuDrag(const DragPoint& at)
+{
+    // 3/4 C_D alpha rho slip alpha^-2.65 V_p / d, with C_D Re in place of C_D so that slip 0 is no special case.
+    return stokes(at) * singleSphereDragTimesReynolds(superficialReynolds(at)) / 24 * std::pow(at.voidFraction, -2.65);
+}
+
+double schillerNaumannDrag(const DragPoint& at)
+{
+    return stokes(at) * singleSphereDragTimesReynolds(at.density * at.slip * at.diameter / at.viscosity) / 24;
+}
+
+double ergunDrag(const DragPoint& at)
+{
+    const double solid = 1 - at.voidFraction;
+    const double volume = pi * at.diameter * at.diameter * at.diameter / 6;
+    return volume
+           * (150 * solid * at.viscosity / (at.voidFraction * at.diameter * at.diameter)
+              + 1.75 * at.density * at.slip / at.diameter);
+}
+
+double gidaspowDrag(const DragPoint& at)
+{
+    return at.voidFraction < 0.8 ? ergunDrag(at) : wenYuDrag(at);
+}
+
+double beetstraDrag(const DragPoint& at)
+{
+    // The paper's F is model A's drag over 3 pi mu d times the superficial slip, voidFraction times the slip: its creeping
+    // part in packed beds, 10 solid/gas^2, is Carman's 180 without the share of the pressure gradient.
+    const double gas = at.voidFraction;
+    const double solid = 1 - gas;
+    const double reynolds = superficialReynolds(at);
+    double force = 10 * solid / (gas * gas) + gas * gas * (1 + 1.5 * std::sqrt(solid));
+    if (reynolds > creeping) {
+        force += 0.413 * reynolds / (24 * gas * gas) * (1 / gas + 3 * gas * solid + 8.4 * std::pow(reynolds, -0.343))
+                 / (1 + std::pow(10, 3 * solid) * std::pow(reynolds, -0.5 * (1 + 4 * solid)));
+    }
+    return stokes(at) * gas * force;
+}
+
+double diFeliceDrag(const DragPoint& at)
+{
+    const double reynolds = std::max(superficialReynolds(at), creeping);
+    const double root = 0.63 * std::sqrt(reynolds) + 4.8;
+    const double distance = 1.5 - std::log10(reynolds);
+    const double chi = 3.7 - 0.65 * std::exp(-0.5 * distance * distance);
+    // Drag pi/8 C_D rho (alpha slip)^2 d^2 alpha^-chi with C_D Re = root^2. chi tends to 3.7, model A's exponent (Richardson
+    // and Zaki's 4.7 is that of the whole force).
+    return pi / 8 * at.viscosity * at.diameter * root * root * std::pow(at.voidFraction, 1 - chi);
+}
+
+double kochHillDrag(const DragPoint& at)
+{
+    const double gas = at.voidFraction;
+    const double solid = 1 - gas;
+    double creepingForce = 10 * solid / (gas * gas * gas);
+    if (solid < 0.4) {
+        const double logarithm = solid > 0 ? 135.0 / 64 * solid * std::log(solid) : 0;
+        creepingForce = (1 + 3 * std::sqrt(solid / 2) + logarithm + 16.14 * solid)
+                        / (1 + 0.681 * solid - 8.48 * solid * solid + 8.16 * solid * solid * solid);
+    }
+    const double inertia = 0.0673 + 0.212 * solid + 0.0232 / std::pow(gas, 5);
+    // 18 mu alpha^2 (1 - alpha)/d^2 (F0 + F3 Re/2) per volume, Re of the superficial slip on the diameter.
+    return stokes(at) * gas * gas * (creepingForce + 0.5 * inertia * superficialReynolds(at));
+}
+
+}  // namespace him

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/gas/drag_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace him {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double gravity = 9.81;
+
+/// A polyethylene sphere of 277 um in nitrogen (physics.md section 4: S bed).
+DragPoint polyethylene(double voidFraction, double slip)
+{
+    return {voidFraction, slip, 277e-6, 1.149, 1.766e-5};
+}
+
+double stokesDrag(const DragPoint& at)
+{
+    return 3 * pi * at.viscosity * at.diameter;
+}
+
+double volume(const DragPoint& at)
+{
+    return pi * std::pow(at.diameter, 3) / 6;
+}
+
+/// Pressure gradient of a resting bed at a superficial velocity: alpha (-dp/dx) = beta (1 - alpha)/V_p slip.
+double bedGradient(const DragLaw& law, DragPoint at, double superficial)
+{
+    at.slip = superficial / at.voidFraction;
+    return law(at) * (1 - at.voidFraction) / volume(at) * at.slip / at.voidFraction;
+}
+
+double ergunGradient(const DragPoint& at, double superficial)
+{
+    const double solid = 1 - at.voidFraction;
+    return 150 * solid * solid * at.viscosity * superficial / (std::pow(at.voidFraction, 3) * at.diameter * at.diameter)
+           + 1.75 * solid * at.density * superficial * superficial / (std::pow(at.voidFraction, 3) * at.diameter);
+}
+
+TEST(DragLaw, namesAllSixAndRefusesAnotherByListingThem)
+{
+    EXPECT_EQ(dragLawNames().size(), 6u);
+    for (const std::string& name : dragLawNames()) {
+        EXPECT_GT(makeDragLaw(name)(polyethylene(0.5, 0.3)), 0) << name;
+    }
+    try {
+        makeDragLaw("Stokes");
+        FAIL() << "an unknown law was accepted";
+    } catch (const std::invalid_argument& refusal) {
+        EXPECT_STREQ(
+            refusal.what(),
+            "unknown drag law 'Stokes'; known: WenYu, SchillerNaumann, Gidaspow, Beetstra, DiFelice, KochHill");
+    }
+}
+
+TEST(DragLaw, ofASingleCreepingSphereIsStokes)
+{
+    const DragPoint at = polyethylene(1, 1e-9);
+    for (const char* name : {"WenYu", "SchillerNaumann", "Gidaspow", "Beetstra", "KochHill"}) {
+        EXPECT_NEAR(makeDragLaw(name)(at) / stokesDrag(at), 1, 2e-4) << name;
+    }
+    // Dallavalle's sphere has C_D Re = 4.8^2 = 23.04 where Stokes has 24.
+    EXPECT_NEAR(makeDragLaw("DiFelice")(at) / stokesDrag(at), 23.04 / 24, 1e-3);
+}
+
+TEST(DragLaw, isFiniteAndContinuousAtZeroSlip)
+{
+    for (const std::string& name : dragLawNames()) {
+        for (const double voidFraction : {0.35, 0.55, 0.7, 0.9, 1.0}) {
+            const double still = makeDragLaw(name)(polyethylene(voidFraction, 0));
+            EXPECT_TRUE(std::isfinite(still) && still > 0) << name << ' ' << voidFraction;
+            EXPECT_NEAR(makeDragLaw(name)(polyethylene(voidFraction, 1e-12)) / still, 1, 1e-4)
+                << name << ' ' << voidFraction;
+        }
+    }
+}
+
+TEST(DragLaw, givesTheTerminalVelocityOfASinglePolyethyleneSphere)
+{
+    // physics.md section 5: 1.0615 m/s at Re 19.13, by Schiller and Naumann.
+    DragPoint at = polyethylene(1, 1);
+    const double weight = (960 - at.density) * volume(at) * gravity;
+    for (int n = 0; n < 200; ++n) {
+        at.slip = 0.5 * (at.slip + weight / schillerNaumannDrag(at));
+    }
+    EXPECT_NEAR(at.slip, 1.0615, 1e-4);
+    EXPECT_NEAR(superficialReynolds(at), 19.13, 0.005);
+    EXPECT_NEAR(wenYuDrag(at), schillerNaumannDrag(at), 1e-18);
+}
+
+TEST(DragLaw, hasAConstantCoefficientAboveReynolds1000)
+{
+    EXPECT_NEAR(singleSphereDragTimesReynolds(2000) / 2000, 0.44, 1e-15);  // S2.8, not 0.44 Re
+    EXPECT_NEAR(singleSphereDragTimesReynolds(1000 - 1e-6) / 1000, 24 * (1 + 0.15 * std::pow(1000, 0.687)) / 1000,
+                1e-9);
+    const DragPoint fast = polyethylene(1, 200);
+    ASSERT_GT(superficialReynolds(fast), 1000);
+    EXPECT_NEAR(schillerNaumannDrag(fast), pi / 8 * 0.44 * fast.density * fast.slip * std::pow(fast.diameter, 2),
+                1e-20);
+}
+
+TEST(DragLaw, ofWenAndYuIsSippolasWithModelA)
+{
+    // S2.6 to S2.8 per volume: 3/4 C_D alpha (1 - alpha) rho |u - v|/d alpha^-2.65, times V_p/(1 - alpha) for one sphere.
+    const DragPoint at = polyethylene(0.7, 0.9);
+    const double reynolds = superficialReynolds(at);
+    const double coefficient = 24 / reynolds * (1 + 0.15 * std::pow(reynolds, 0.687));
+    const double perVolume = 0.75 * coefficient * 0.7 * 0.3 * at.density * at.slip / at.diameter * std::pow(0.7, -2.65);
+    EXPECT_NEAR(wenYuDrag(at), perVolume * volume(at) / 0.3, 1e-14 * perVolume);
+}
+
+TEST(DragLaw, ofGidaspowIsErgunInPackedBeds)
+{
+    const DragPoint at = polyethylene(0.42, 0);
+    for (const double superficial : {0.01, 0.1, 1.0}) {
+        EXPECT_NEAR(bedGradient(gidaspowDrag, at, superficial) / ergunGradient(at, superficial), 1, 1e-12);
+    }
+}
+
+TEST(DragLaw, ofGidaspowSwitchesAtVoidFraction80Percent)
+{
+    const DragPoint dense = polyethylene(0.8 - 1e-12, 0.5);
+    const DragPoint dilute = polyethylene(0.8, 0.5);
+    EXPECT_EQ(gidaspowDrag(dense), ergunDrag(dense));
+    EXPECT_EQ(gidaspowDrag(dilute), wenYuDrag(dilute));
+    EXPECT_GT(std::fabs(gidaspowDrag(dense) / gidaspowDrag(dilute) - 1), 0.01);  // the law jumps there
+}
+
+TEST(DragLaw, ofCreepingFlowInPackedBedsIsCarmans)
+{
+    // -dp/dx = 180 mu (1 - alpha)^2 U/(alpha^3 d^2): both laws were fitted to lattice-Boltzmann runs that obey it.
+    const DragPoint at = polyethylene(0.4, 0);
+    const double creeping = 1e-9;
+    const double carman = 180 * at.viscosity * 0.36 * creeping / (0.064 * at.diameter * at.diameter);
+    EXPECT_NEAR(bedGradient(kochHillDrag, at, creeping) / carman, 1, 1e-4);
+    EXPECT_NEAR(bedGradient(beetstraDrag, at, creeping) / carman,
+                1 + 0.4 * 0.4 * 0.4 * 0.4 * (1 + 1.5 * std::sqrt(0.6)) / 6,
+                1e-3);  // and the second term of the law beside it
+}
+
+TEST(DragLaw, lawsOfPackedBedsAgreeWithinTheirScatter)
+{
+    // Ergun, Beetstra, Koch and Hill, Di Felice and Wen and Yu at alpha = 0.45 and the slip of minimum fluidisation.
+    const DragPoint at = polyethylene(0.45, 0);
+    const double reference = ergunGradient(at, 0.05);
+    for (const char* name : {"Gidaspow", "Beetstra", "KochHill", "DiFelice", "WenYu"}) {
+        const double ratio = bedGradient(makeDragLaw(name), at, 0.05) / reference;
+        EXPECT_GT(ratio, 0.6) << name;
+        EXPECT_LT(ratio, 1.6) << name;
+    }
+}
+
+TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
+{
+    // A: alpha (-p') = n beta w, force beta w + V_p (-p'). B: -p' = n beta_B w, force beta_B w.
+    const DragPoint at = polyethylene(0.42, 0.3);
+    const double number = (1 - at.voidFraction) / volume(at);
+    for (const std::string& name : dragLawNames()) {
+        const double a = makeDragLaw(name)(at);
+        const double b = dragOfModelB(a, at.voidFraction);
+        const double gradientA = number * a * at.slip / at.voidFraction;
+        EXPECT_NEAR(number * b * at.slip / gradientA, 1, 1e-13) << name;
+        EXPECT_NEAR(b * at.slip / (a * at.slip + volume(at) * gradientA), 1, 1e-13) << name;
+    }
+}
+
+}  // namespace
+}  // namespace him
