@@ -72,6 +72,8 @@ public:
     virtual Box box() const = 0;          ///< whole DEM box [m]
     virtual std::array<bool, 3> periodic() const = 0;
     virtual const std::vector<DemWall>& walls() const = 0;
+    /// The plane that the script confines particles to, "(nx ny nz) through (x y z) m"; empty where they move freely.
+    virtual std::string planeOfMotion() const { return {}; }
     virtual bool charging() const = 0;                    ///< the script asks for contact charging
     virtual std::string chargingDescription() const = 0;  ///< the pair table for the log, several lines
     /// What in the scene can not be simulated (missing Gamma for a type pair, coarse graining, wrong units, ...).

@@ -104,6 +104,11 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
     if (!atom->q_flag || !atom->radius_flag) {
         error->fix_error(FLERR, this, "needs charged spheres: write 'atom_style hybrid granular charge'");
     }
+    if (domain->dimension != 3) {
+        error->fix_error(FLERR, this,
+                         "found 'dimension 2', which makes discs of unit length; contact areas are those of spheres. Write "
+                         "'dimension 3', and confine spheres to a plane by fix constrain/plane");
+    }
     if (strcmp(update->unit_style, "si") != 0) {
         error->fix_error(FLERR, this, "works in 'units si' only");
     }

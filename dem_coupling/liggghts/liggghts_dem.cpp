@@ -2,6 +2,7 @@
 #include "dem_coupling/liggghts/liggghts_dem.hpp"
 
 #include "dem_coupling/liggghts/contact_models.hpp"
+#include "dem_coupling/liggghts/fix_constrain_plane.hpp"
 #include "dem_coupling/liggghts/fix_efield_him.hpp"
 #include "dem_coupling/liggghts/fix_registry.hpp"
 #include "dem_coupling/liggghts/particle_rows.hpp"
@@ -118,6 +119,12 @@ std::array<bool, 3> LiggghtsDem::periodic() const
     return {lmp_->domain->xperiodic != 0, lmp_->domain->yperiodic != 0, lmp_->domain->zperiodic != 0};
 }
 
+std::string LiggghtsDem::planeOfMotion() const
+{
+    const FixConstrainPlane* plane = FixConstrainPlane::find(lmp_.get());
+    return plane ? plane->description() : std::string();
+}
+
 std::string LiggghtsDem::chargingDescription() const
 {
     return charging_ ? charging_->description() : std::string();
@@ -139,6 +146,10 @@ Complaints LiggghtsDem::check() const
     if (std::strcmp(lmp_->update->unit_style, "si") != 0) {
         complaints.add(script_, "units '" + std::string(lmp_->update->unit_style)
                                     + "' found; himFoam works in SI only. Write 'units si'.");
+    }
+    if (lmp_->domain->dimension != 3) {
+        complaints.add(script_, "'dimension 2' found, which makes discs of unit length with the mass and the contact area of "
+                                "cylinders. Write 'dimension 3', and confine spheres to a plane by fix constrain/plane.");
     }
     if (!lmp_->atom->q_flag || !lmp_->atom->radius_flag) {
         complaints.add(script_,

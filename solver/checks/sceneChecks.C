@@ -122,6 +122,19 @@ void checkWalls(const caseSettings& settings, const DemPort& dem, Complaints& co
     }
 }
 
+void checkDimensions(const caseSettings& settings, const DemPort& dem, Complaints& complaints)
+{
+    const std::string plane = dem.planeOfMotion();
+    if (plane.empty() || !FieldMethod::needsMesh(settings.field.method)) {
+        return;
+    }
+    complaints.add("constant/electrostaticProperties: fieldMethod",
+                   settings.field.method + " has a mesh, but the DEM script confines spheres to the plane " + plane
+                       + " (fix constrain/plane). The mesh ends in front of and behind that plane, and its boundaries there would "
+                         "screen the charges, where a two-dimensional scene has nothing. Use pairwiseSum or directTruncation, or "
+                         "take the constraint out.");
+}
+
 void findImageWalls(caseSettings& settings, const DemPort& dem, Complaints& complaints)
 {
     PairwiseSumSettings& sum = settings.field.pairwiseSum;

@@ -50,6 +50,7 @@ void openDem(scene& s, MPI_Comm communicator)
     Complaints complaints = s.dem->check();
     s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);
     checkWalls(s.settings, *s.dem, complaints);
+    checkDimensions(s.settings, *s.dem, complaints);
     findImageWalls(s.settings, *s.dem, complaints);
     if (s.poisson) {
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);

@@ -230,6 +230,24 @@ class BadInput(unittest.TestCase):
         self.case.replace(COUPLING, "floor bottom;", "floor noTransfer;")
         self.refused("electricPotential: no patch fixes the voltage, but the particles carry a net charge of 1.8e-09 C")
 
+    def test_discs(self):
+        # A wall without contact charging: the charging fix would refuse before himFoam's own check.
+        text = (self.case.path / SCRIPT).read_text().replace("units si", "units si\ndimension 2").replace("boundary f f f", "boundary f f p")
+        text = "\n".join(line for line in text.replace(" cohesion charge", "").splitlines() if not line.startswith("fix tribo"))
+        (self.case.path / SCRIPT).write_text(text)
+        self.refused("'dimension 2' found, which makes discs of unit length", "fix constrain/plane")
+
+    def test_spheres_in_a_plane_with_a_method_that_has_a_mesh(self):
+        text = "\n".join(line for line in (self.case.path / SCRIPT).read_text().splitlines()
+                         if not line.startswith(("create_atoms", "set atom")))
+        text += "\ncreate_atoms 1 single 0.05 0.05 0.05 units box\nset atom 1 diameter 0.004 density 2000\n"
+        (self.case.path / SCRIPT).write_text(text + "fix flat all constrain/plane normal 0 1 0 point 0 0.05 0\n")
+        self.refused("constant/electrostaticProperties: fieldMethod: him has a mesh, but the DEM script confines spheres to the plane",
+                     "Use pairwiseSum or directTruncation")
+        self.case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod pairwiseSum;")
+        self.case.replace(COUPLING, "floor bottom;", "floor grounded;")
+        self.assertEqual(self.case.run("-dry-run").code, 0)
+
     def test_everything_of_the_last_stage_is_reported_together(self):
         self.case.replace("system/controlDict", "deltaT 1e-3;", "deltaT 1.004e-3;")
         self.case.replace(COUPLING, "lid noTransfer;", "roof noTransfer;")

@@ -50,6 +50,13 @@ class ScriptErrors(unittest.TestCase):
         self.assertNotEqual(run.code, 0)
         self.assertIn("write 'atom_style hybrid granular charge'", run.out)
 
+    def test_discs_are_refused_with_the_line_to_write(self):
+        text = script(BALL, WALL, GOOD).replace("units si", "units si\ndimension 2").replace("-0.02 0.02 units", "-0.001 0.001 units")
+        run = Run(text.replace("boundary f f f", "boundary f f p"), 1)
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("found 'dimension 2', which makes discs of unit length", run.out)
+        self.assertIn("fix constrain/plane", run.out)
+
     def test_a_contact_model_that_records_needs_the_fix(self):
         run = Run(script(BALL, WALL, ""), 1, thermo="ke")
         self.assertNotEqual(run.code, 0)
