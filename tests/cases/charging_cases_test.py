@@ -10,7 +10,7 @@ import unittest
 
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 NAME = sys.argv.pop(1)
-ROWS = {"singleContact": 2, "reciprocatingCharger": 1}      # of the short report's first table
+ROWS = {"packing": 2, "reciprocatingCharger": 1, "singleContact": 2}      # of the short report's first table
 
 
 class ChargingCase(unittest.TestCase):
@@ -19,7 +19,8 @@ class ChargingCase(unittest.TestCase):
             root = pathlib.Path(folder)
             for name in ("RunFunctions", "demScene.py"):
                 shutil.copy(CASES / name, root)
-            shutil.copytree(CASES / NAME, root / NAME, ignore=shutil.ignore_patterns("runs", "doc"))
+            for name in {NAME} | ({"vibratoryShaker"} if NAME == "packing" else set()):
+                shutil.copytree(CASES / name, root / name, ignore=shutil.ignore_patterns("runs", "study", "bands", "doc"))
             done = subprocess.run(["./Allrun", "-short"], cwd=root / NAME, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                   timeout=240)
             self.assertEqual(done.returncode, 0, done.stdout[-3000:])
