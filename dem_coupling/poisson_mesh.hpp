@@ -56,6 +56,13 @@ public:
         throw std::logic_error("this mesh has no correction");
     }
 
+    /// Potentials [V] of the charged walls that the last solve (and its correction) left, into their rows of
+    /// arrays().boundary; the other rows stay. Collective where the mesh has such walls.
+    virtual void chargedWallValues(Scalars& boundaryValue) const { static_cast<void>(boundaryValue); }
+    /// Whether the gas's permittivity holds in all cells and no wall carries charge of its own, so that the charges and the
+    /// edge of the mesh alone make the field.
+    virtual bool chargesAlone() const { return true; }
+
     /// Asks for the operator of matchedSymbol() (electrostatics/p3m/lattice_operator.hpp) in place of the finite-volume one
     /// in solve(cellCharge, boundaryValue), whose boundary values are all zero from then on. True when the mesh has one: the
     /// direct solve of a uniform grounded box; no deferred correction is needed then. Collective.

@@ -41,6 +41,9 @@ std::size_t sideOf(const Vector3& normal, const Vector3& centre, const Box& box)
 std::optional<RectangularSpace> boxOfMesh(const PoissonMesh& mesh, const std::array<bool, 3>& periodic,
                                           MPI_Comm communicator)
 {
+    if (!mesh.chargesAlone()) {
+        return {};
+    }
     RectangularSpace space;
     space.box = boundsOfAll(mesh, communicator);
     const MeshArrays& arrays = mesh.arrays();

@@ -128,9 +128,13 @@ void P3m::depositAndSolve()
         mesh_.useFiniteVolumeOperator();
     }
     mesh_.solve(cellCharge_, boundaryValue_);
-    Scalars faces = boundaryValue_;
-    halo_.forwardFaces(faces);
-    boundaryValue_.swap(faces);
+    const Scalars given = boundaryValue_;
+    const auto takeFaceValues = [&] {
+        boundaryValue_ = given;
+        mesh_.chargedWallValues(boundaryValue_);
+        halo_.forwardFaces(boundaryValue_);
+    };
+    takeFaceValues();
     takePotential();
     if (correct_) {
         // What the second-order solve leaves of eps laplacian(V) + rho = 0 at the cell centres, as charge.
@@ -141,6 +145,7 @@ void P3m::depositAndSolve()
                                    * gather_.laplacian(cell, cellPotential_, boundaryValue_);
         }
         mesh_.correct(residual);
+        takeFaceValues();
         takePotential();
     }
 }
@@ -336,9 +341,9 @@ Vector3 P3m::ownCloudGradient(Index target)
     }
     for (const std::int32_t face : gather_.stencilFaces(cell)) {
         const Vector3 x = mesh.boundary.centre.row(face).matrix().transpose();
-        const bool conductor = mesh.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
+        const bool value = mesh.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::insulated;
         scratchFaces_[face] =
-            conductor ? potentialAt(x) : -fieldAt(x).dot(mesh.boundary.normal.row(face).matrix().transpose());
+            value ? potentialAt(x) : -fieldAt(x).dot(mesh.boundary.normal.row(face).matrix().transpose());
     }
     PolynomialGather::Polynomial polynomial;
     gather_.fit(cell, scratchCells_, scratchFaces_, polynomial);

@@ -21,6 +21,9 @@ namespace {
 /// the fit does not depend on which came first.
 constexpr double rounding = 1e-7;
 
+/// Sides of one wall face have centres nearer than this share of the face size, whichever rank computed them.
+constexpr double samePlace = 1e-6;
+
 /// A fit whose gradient at the rim of the cell magnifies errors of the values more than this is refused.
 constexpr double mostAmplification = 30;
 
@@ -135,7 +138,29 @@ PolynomialGather::PolynomialGather(const LocalMesh& mesh, const SurroundingsTabl
 
 bool PolynomialGather::mirrors(Index face) const
 {
-    return walls_.mirrorsExactly(face) && mesh_.boundary.value[face] == 0;
+    return mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::chargedWall && walls_.mirrorsExactly(face)
+           && mesh_.boundary.value[face] == 0;
+}
+
+/// Whether a charged wall stands between two neighbours: both have a side of it at the same place.
+bool PolynomialGather::wallBetween(std::int32_t cell, std::int32_t neighbour) const
+{
+    const BoundaryFaces& faces = mesh_.boundary;
+    const auto isWall = [&](std::int32_t face) {
+        return faces.condition[static_cast<std::size_t>(face)] == FaceCondition::chargedWall;
+    };
+    for (const std::int32_t here : mesh_.facesOfCell[cell]) {
+        if (!isWall(here)) {
+            continue;
+        }
+        for (const std::int32_t there : mesh_.facesOfCell[neighbour]) {
+            const double apart = (faces.centre.row(here) - faces.centre.row(there)).matrix().norm();
+            if (isWall(there) && apart < samePlace * faces.radius[here]) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 const PolynomialGather::Stencil& PolynomialGather::stencilOf(Index cell)
@@ -183,7 +208,9 @@ void PolynomialGather::collect(Index cell, Stencil& stencil)
         for (; begin < end; ++begin) {
             const Node here = nodes_[begin];
             for (const std::int32_t neighbour : mesh_.neighbours[here.cell]) {
-                add({neighbour, here.sign, here.planes, placeOf(neighbour, here.planes)});
+                if (!wallBetween(here.cell, neighbour)) {
+                    add({neighbour, here.sign, here.planes, placeOf(neighbour, here.planes)});
+                }
             }
             for (const std::int32_t face : mesh_.facesOfCell[here.cell]) {
                 if (!mirrors(face)) {
@@ -231,6 +258,9 @@ Eigen::Matrix3d PolynomialGather::scaleOf(Index cell) const
     const Vector3 centre = mesh_.centreOf(cell);
     int steps = 0;
     for (const std::int32_t neighbour : mesh_.neighbours[cell]) {
+        if (wallBetween(static_cast<std::int32_t>(cell), neighbour)) {
+            continue;
+        }
         const Vector3 step = mesh_.centreOf(neighbour) - centre;
         moment += step * step.transpose();
         ++steps;
@@ -270,8 +300,8 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
     }
     for (const std::int32_t face : stencil.faces) {
         const Vector3 x = mesh_.boundary.centre.row(face).matrix().transpose();
-        const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
-        points.push_back({{conductor ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face, 1});
+        const bool value = mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::insulated;
+        points.push_back({{value ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face, 1});
     }
     std::sort(points.begin(), points.end(), [](const FitPoint& a, const FitPoint& b) { return a.key < b.key; });
     stencil.cells.clear();
@@ -396,8 +426,8 @@ void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars&
     }
     const double h = stencil.faces.empty() ? 0 : cellSize(mesh_, cell);
     for (const std::int32_t face : stencil.faces) {
-        const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
-        *value++ = conductor ? faceValues[face] - polynomial.value : h * faceValues[face];
+        const bool given = mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::insulated;
+        *value++ = given ? faceValues[face] - polynomial.value : h * faceValues[face];
     }
     accumulate(fit.matrix.data(), fit.padded, values_.data(), static_cast<int>(points), polynomial.coefficients.data());
 }

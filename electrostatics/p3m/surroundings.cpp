@@ -19,6 +19,11 @@ constexpr double sameWall = 0.5;
 /// A cell centre counts as beyond a plane when it is farther out than this share of the cell size.
 constexpr double beyond = 1e-3;
 
+bool isChargedWall(const BoundaryFaces& faces, Index face)
+{
+    return faces.condition[static_cast<std::size_t>(face)] == FaceCondition::chargedWall;
+}
+
 }  // namespace
 
 bool Surroundings::reaches(Index cell) const
@@ -40,9 +45,12 @@ void SurroundingsTable::findPlanes()
     // Faces are sorted by their rounded normal; among those of one normal, planes are told apart by their offset.
     std::map<std::array<std::int64_t, 4>, std::vector<std::int32_t>> byNormal;
     const BoundaryFaces& faces = mesh_.boundary;
-    planeOfFace_.resize(static_cast<std::size_t>(faces.size()));
+    planeOfFace_.assign(static_cast<std::size_t>(faces.size()), -1);
     constexpr double cells = 1e4;  // rounding of a normal's components
     for (Index face = 0; face < faces.size(); ++face) {
+        if (isChargedWall(faces, face)) {
+            continue;  // charges act through it
+        }
         const Vector3 normal = faces.normal.row(face).matrix().transpose();
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
         const double sign = faces.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor ? -1.0 : 1.0;
@@ -95,6 +103,9 @@ void SurroundingsTable::findExactFaces()
     exact_.assign(static_cast<std::size_t>(faces.size()), false);
     std::vector<Box> boxes(planes_.size());
     for (Index face = 0; face < faces.size(); ++face) {
+        if (isChargedWall(faces, face)) {
+            continue;
+        }
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
         const Vector3 normal = faces.normal.row(face).matrix().transpose();
         const Vector3 extent = faces.radius[face] * (1 - normal.array().square()).max(0).sqrt().matrix();
@@ -114,6 +125,10 @@ void SurroundingsTable::findExactFaces()
     const double reach = 2 * radius_ * (1 - 1e-9);
     std::vector<std::size_t> near;
     for (Index face = 0; face < faces.size(); ++face) {
+        if (isChargedWall(faces, face)) {
+            exact_[static_cast<std::size_t>(face)] = true;  // no image stands behind it that could leave anything
+            continue;
+        }
         const auto own = static_cast<std::size_t>(planeOfFace_[static_cast<std::size_t>(face)]);
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
         near.clear();
@@ -183,7 +198,8 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
     const BoundaryFaces& faces = mesh_.boundary;
     for (const std::int32_t other : reached_) {
         for (const std::int32_t face : mesh_.facesOfCell[other]) {
-            if ((faces.centre.row(face).matrix().transpose() - centre).norm() > reach + faces.radius[face]) {
+            const double away = (faces.centre.row(face).matrix().transpose() - centre).norm();
+            if (isChargedWall(faces, face) || away > reach + faces.radius[face]) {
                 continue;
             }
             wallPlanes.push_back(planeOfFace_[static_cast<std::size_t>(face)]);

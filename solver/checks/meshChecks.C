@@ -141,7 +141,7 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
 }
 
 std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, double permittivity, Complaints& complaints,
-                                                 bool neutralisingBackground)
+                                                 bool neutralisingBackground, const dielectricChoices& dielectrics)
 {
     const std::size_t before = complaints.lines().size();
     refuseFlatMesh(mesh, complaints);
@@ -169,6 +169,12 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
     if (poisson->electricPotential().dimensions() != volt) {
         complaints.add(where + ": dimensions", "found other units than volt. Write dimensions [1 2 -3 0 0 -1 0];");
     }
+    attempt("electrostaticProperties", complaints, [&] { poisson->setDielectrics(dielectrics, complaints); });
+    if (poisson->matter() && numerics.gradient.rfind("Gauss linear", 0) != 0) {
+        complaints.add(std::string(ofRegion("system", mesh.name()) / "fvSchemes") + ": gradSchemes",
+                       "found `" + numerics.gradient + "`, but with insulating walls or zones of other permittivity the gradient "
+                                                       "is made of the potentials of the faces: write Gauss linear.");
+    }
     return poisson;
 }
 
@@ -176,6 +182,11 @@ void checkConditions(const FieldSettings& settings, const foamPoissonMesh& mesh,
 {
     if (settings.method == "p3m") {
         refuseOtherConditions(mesh.electricPotential(), complaints);
+        if (mesh.matter() && !mesh.matter()->uniform()) {
+            complaints.add("constant/electrostaticProperties: zonePermittivity",
+                           "p3m knows one permittivity, that of the gas, in all cells. Leave zonePermittivity out (charge on "
+                           "insulating walls works all the same), or use fieldMethod him or himCell.");
+        }
     }
 }
 

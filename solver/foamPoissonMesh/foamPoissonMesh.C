@@ -83,11 +83,36 @@ foamPoissonMesh::foamPoissonMesh(const Foam::fvMesh& mesh, double permittivity, 
       localBounds_(boundsOf(mesh.points())),
       largestCellDiagonal_(largestDiagonal(mesh)),
       potentialIsFixed_(!electricPotential_.needReference()),
-      equation_(electricPotential_, numerics_)
+      equation_(std::make_unique<potentialEquation>(electricPotential_, numerics_))
 {
 }
 
 foamPoissonMesh::~foamPoissonMesh() = default;
+
+void foamPoissonMesh::setDielectrics(const dielectricChoices& choices, Complaints& complaints)
+{
+    dielectrics_ = dielectrics::create(choices, permittivity_, electricPotential_, complaints);
+    if (dielectrics_) {
+        numerics_.directSolve = false;
+        equation_ = std::make_unique<potentialEquation>(electricPotential_, numerics_, dielectrics_.get());
+    }
+}
+
+Scalars foamPoissonMesh::withWalls(const Scalars& cellCharge) const
+{
+    Scalars all = cellCharge;
+    if (dielectrics_) {
+        dielectrics_->addShares(all);
+    }
+    return all;
+}
+
+void foamPoissonMesh::chargedWallValues(Scalars& boundaryValue) const
+{
+    if (dielectrics_ && part_) {
+        dielectrics_->wallValues(part_->potential, part_->correction, boundaryValue);
+    }
+}
 
 Vector3 foamPoissonMesh::cellCentre(Index cell) const
 {
@@ -183,9 +208,13 @@ Foam::scalarField foamPoissonMesh::sourceOf(const Scalars& cellCharge) const
     return source;
 }
 
-void foamPoissonMesh::solve(const Scalars& cellCharge)
+void foamPoissonMesh::solve(const Scalars& particleCharge)
 {
     partIsLatest_ = false;
+    const Scalars cellCharge = withWalls(particleCharge);
+    if (dielectrics_) {
+        dielectrics_->updatePatches(electricPotential_);
+    }
     if (!mustSolve(cellCharge, solvedCharge_)) {
         return;
     }
@@ -199,14 +228,14 @@ void foamPoissonMesh::solve(const Scalars& cellCharge)
     } else {
         scalarField source = sourceOf(cellCharge);
         if (!potentialIsFixed_) {
-            balance(source, equation_.boundaryFlux());
+            balance(source, equation_->boundaryFlux());
         }
-        equation_.solve(source);
+        equation_->solve(source);
     }
-    electricField_ = -equation_.gradient();
+    electricField_ = -equation_->gradient();
     forAll(chargeDensity_, cell)
     {
-        chargeDensity_[cell] = cellCharge[cell] / mesh_.V()[cell];
+        chargeDensity_[cell] = particleCharge[cell] / mesh_.V()[cell];
     }
     chargeDensity_.correctBoundaryConditions();
     electricField_.writeOpt() = IOobject::AUTO_WRITE;
@@ -231,7 +260,7 @@ bool foamPoissonMesh::useMatchedOperator()
 std::string foamPoissonMesh::description() const
 {
     const std::string cells = std::to_string(returnReduce(mesh_.nCells(), sumOp<label>())) + " cells, ";
-    return cells + (direct_ ? std::string("direct solve by sine transforms") : equation_.description());
+    return cells + (direct_ ? std::string("direct solve by sine transforms") : equation_->description());
 }
 
 }  // namespace him

@@ -2,6 +2,7 @@
 #include "foamPoissonMesh/meshArrays.H"
 
 #include "foamPoissonMesh/conversions.H"
+#include "foamPoissonMesh/insulatingWallFvPatchScalarField.H"
 #include "settings/electricRegion.H"
 
 #include "basicSymmetryFvPatchField.H"
@@ -55,6 +56,10 @@ std::string whyNotCondition(const fvPatchScalarField& potential)
     }
     if (isConductor(potential) || isInsulated(potential)) {
         return {};
+    }
+    if (isA<insulatingWallFvPatchScalarField>(potential)) {
+        return "the condition insulatingWall, of whose other side p3m knows nothing. Mesh the outside of the wall and name it "
+               "in insulatingWalls, or use fieldMethod him or himCell";
     }
     return "the condition " + potential.type()
            + ", of which it is not known whether the wall is a conductor. Known: fixedValue and its kin, zeroGradient, "

@@ -60,12 +60,13 @@ void readStart(volScalarField& field)
 
 }  // namespace
 
-foamPoissonMesh::meshPart::meshPart(const Foam::volScalarField& electricPotential, const potentialNumerics& numerics)
+foamPoissonMesh::meshPart::meshPart(const Foam::volScalarField& electricPotential, const potentialNumerics& numerics,
+                                    const dielectrics* matter)
     : potential(makeField("meshPotential", electricPotential)),
       correction(IOobject("meshPotentialCorrection", electricPotential.time().timeName(), electricPotential.mesh()),
                  electricPotential.mesh(), dimensionedScalar(electricPotential.dimensions(), Zero),
                  extrapolatedCalculatedFvPatchScalarField::typeName),
-      equation(potential, numerics)
+      equation(potential, numerics, matter)
 {
     readStart(potential);
     readStart(correction);
@@ -75,7 +76,7 @@ foamPoissonMesh::meshPart::meshPart(const Foam::volScalarField& electricPotentia
 foamPoissonMesh::meshPart& foamPoissonMesh::part()
 {
     if (!part_) {
-        part_ = std::make_unique<meshPart>(electricPotential_, numerics_);
+        part_ = std::make_unique<meshPart>(electricPotential_, numerics_, dielectrics_.get());
     }
     return *part_;
 }
@@ -89,6 +90,9 @@ const MeshArrays& foamPoissonMesh::arrays() const
             throw std::runtime_error(complaints.text());
         }
         arrays_ = std::make_unique<MeshArrays>(makeMeshArrays(electricPotential_));
+        if (dielectrics_) {
+            dielectrics_->appendTo(arrays_->boundary);
+        }
     }
     updateVoltages(electricPotential_, *arrays_);
     return *arrays_;
@@ -110,9 +114,10 @@ void foamPoissonMesh::setBoundaryValues(const Scalars& boundaryValue)
     }
 }
 
-void foamPoissonMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
+void foamPoissonMesh::solve(const Scalars& particleCharge, const Scalars& boundaryValue)
 {
     partIsLatest_ = true;
+    const Scalars cellCharge = withWalls(particleCharge);
     partIsNew_ = mustSolve(cellCharge, partSolvedCharge_);
     if (!partIsNew_) {
         return;

@@ -5,6 +5,7 @@
 #include "settings/electricRegion.H"
 
 #include "IStringStream.H"
+#include "gaussGrad.H"
 #include "gradScheme.H"
 #include "linear.H"
 #include "surfaceFields.H"
@@ -65,8 +66,9 @@ bool holdsReference(const fvMesh& mesh)
 
 }  // namespace
 
-potentialEquation::potentialEquation(volScalarField& potential, const potentialNumerics& numerics)
-    : potential_(potential), numerics_(numerics), orthogonal_(isOrthogonal(potential.mesh()))
+potentialEquation::potentialEquation(volScalarField& potential, const potentialNumerics& numerics,
+                                     const dielectrics* matter)
+    : potential_(potential), numerics_(numerics), matter_(matter), orthogonal_(isOrthogonal(potential.mesh()))
 {
     if (numerics_.solver.empty()) {
         numerics_.solver = defaultSolver(potential.mesh());
@@ -76,6 +78,12 @@ potentialEquation::potentialEquation(volScalarField& potential, const potentialN
     }
 }
 
+tmp<scalarField> potentialEquation::ratioAt(label patch) const
+{
+    return matter_ ? tmp<scalarField>(new scalarField(matter_->ratio().boundaryField()[patch]))
+                   : tmp<scalarField>(new scalarField(potential_.boundaryField()[patch].size(), scalar(1)));
+}
+
 void potentialEquation::assemble()
 {
     const fvMesh& mesh = potential_.mesh();
@@ -83,11 +91,14 @@ void potentialEquation::assemble()
     solver_.clear();
     matrix_ = std::make_unique<fvScalarMatrix>(potential_, potential_.dimensions() * dimLength);
     matrix_->upper() = coeffs.primitiveField() * mesh.magSf().primitiveField();
+    if (matter_) {
+        matrix_->upper() *= matter_->ratio().primitiveField();
+    }
     matrix_->negSumDiag();
     forAll(potential_.boundaryField(), patch)
     {
         const fvPatchScalarField& values = potential_.boundaryField()[patch];
-        const scalarField& area = mesh.magSf().boundaryField()[patch];
+        const scalarField area(mesh.magSf().boundaryField()[patch] * ratioAt(patch));
         const scalarField& inverse = coeffs.boundaryField()[patch];
         matrix_->internalCoeffs()[patch] =
             values.coupled() ? area * values.gradientInternalCoeffs(inverse) : area * values.gradientInternalCoeffs();
@@ -112,7 +123,7 @@ bool potentialEquation::coefficientsAreOld() const
     for (label patch = 0; matrix_ && patch < potential_.boundaryField().size(); ++patch) {
         const fvPatchScalarField& values = potential_.boundaryField()[patch];
         if (!values.coupled()) {
-            const scalarField now(values.patch().magSf() * values.gradientInternalCoeffs());
+            const scalarField now(scalarField(values.patch().magSf() * ratioAt(patch)) * values.gradientInternalCoeffs());
             changed = changed || now != matrix_->internalCoeffs()[patch];
         }
     }
@@ -121,6 +132,11 @@ bool potentialEquation::coefficientsAreOld() const
 
 tmp<volVectorField> potentialEquation::gradient() const
 {
+    if (matter_) {
+        tmp<volVectorField> result = fv::gaussGrad<scalar>::gradf(matter_->faceValues(potential_), "grad(electricPotential)");
+        fv::gaussGrad<scalar>::correctBoundaryConditions(potential_, result.ref());
+        return result;
+    }
     IStringStream text(numerics_.gradient);
     return fv::gradScheme<scalar>::New(potential_.mesh(), text)().grad(potential_);
 }
@@ -141,7 +157,8 @@ scalarField potentialEquation::nonOrthogonalFlux() const
         const label owner = mesh.owner()[face];
         const label neighbour = mesh.neighbour()[face];
         const scalar implicit = mesh.nonOrthDeltaCoeffs()[face] * (potential_[neighbour] - potential_[owner]);
-        const scalar f = flux(mesh.magSf()[face], mesh.nonOrthCorrectionVectors()[face], faceGradient[face], implicit);
+        const scalar area = matter_ ? mesh.magSf()[face] * matter_->ratio()[face] : mesh.magSf()[face];
+        const scalar f = flux(area, mesh.nonOrthCorrectionVectors()[face], faceGradient[face], implicit);
         sums[owner] += f;
         sums[neighbour] -= f;
     }
@@ -152,10 +169,11 @@ scalarField potentialEquation::nonOrthogonalFlux() const
             continue;  // the fluxes at the edge of the mesh have no such part
         }
         const scalarField implicit(values.snGrad(mesh.nonOrthDeltaCoeffs().boundaryField()[patch]));
+        const scalarField area(mesh.magSf().boundaryField()[patch] * ratioAt(patch));
         forAll(values, i)
         {
             sums[values.patch().faceCells()[i]] +=
-                flux(mesh.magSf().boundaryField()[patch][i], mesh.nonOrthCorrectionVectors().boundaryField()[patch][i],
+                flux(area[i], mesh.nonOrthCorrectionVectors().boundaryField()[patch][i],
                      faceGradient.boundaryField()[patch][i], implicit[i]);
         }
     }
@@ -165,9 +183,11 @@ scalarField potentialEquation::nonOrthogonalFlux() const
 double potentialEquation::boundaryFlux() const
 {
     scalar sum = 0;
-    for (const fvPatchScalarField& values : potential_.boundaryField()) {
+    forAll(potential_.boundaryField(), patch)
+    {
+        const fvPatchScalarField& values = potential_.boundaryField()[patch];
         if (!values.coupled()) {
-            sum += Foam::sum(values.patch().magSf() * values.gradientBoundaryCoeffs());
+            sum += Foam::sum(values.patch().magSf() * ratioAt(patch) * values.gradientBoundaryCoeffs());
         }
     }
     return sum;
@@ -206,9 +226,11 @@ void potentialEquation::solve(const scalarField& source)
         assemble();
     }
     scalarField total(source);
-    for (const fvPatchScalarField& values : boundary) {
+    forAll(boundary, patch)
+    {
+        const fvPatchScalarField& values = boundary[patch];
         if (!values.coupled()) {
-            const scalarField flux(values.patch().magSf() * values.gradientBoundaryCoeffs());
+            const scalarField flux(values.patch().magSf() * ratioAt(patch) * values.gradientBoundaryCoeffs());
             const labelUList& cells = values.patch().faceCells();
             forAll(cells, i)
             {

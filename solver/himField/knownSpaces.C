@@ -42,7 +42,7 @@ int sideOf(const Foam::vector& normal, const Foam::point& centre, const Box& box
 
 std::optional<BoxSides> rectangularBox(const snapshot& s)
 {
-    if (!s.poisson) {
+    if (!s.poisson || !s.poisson->chargesAlone()) {
         return {};
     }
     std::array<int, 7> found{};  // conditions on every side; the last of faces on none
@@ -81,7 +81,7 @@ std::optional<BoxSides> rectangularBox(const snapshot& s)
 
 std::optional<sphericalSpace> groundedSphere(const snapshot& s)
 {
-    if (!s.poisson) {
+    if (!s.poisson || !s.poisson->chargesAlone()) {
         return {};
     }
     sphericalSpace sphere;

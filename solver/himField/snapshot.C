@@ -94,7 +94,7 @@ void openSnapshot(const Foam::argList& args, const std::vector<std::string>& nam
     }
     s.periodic = periodicDirections(s.mesh(), complaints);
     s.poisson = openPoissonMesh(s.mesh(), s.choices.selected.permittivity, complaints,
-                                s.choices.selected.neutralisingBackground);
+                                s.choices.selected.neutralisingBackground, s.choices.dielectrics);
     if (s.poisson) {
         checkConditions(s.choices.selected, *s.poisson, complaints);
     }

@@ -28,6 +28,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
     const fieldChoices choices = readFieldChoices(casePath, complaints);
     settings.field = choices.selected;
     settings.fieldError = choices.fieldError;
+    settings.dielectrics = choices.dielectrics;
     settings.needsMesh = settings.field.method.empty() ? hasElectricMesh(casePath)
                                                        : FieldMethod::needsMesh(settings.field.method);
 

@@ -102,13 +102,15 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
     const std::string selected = properties.oneOf("fieldMethod", FieldMethod::names(), byAccuracy ? "p3m" : "");
     FieldSettings common;
     common.externalField = properties.vector("externalField", Vector3::Zero());
-    common.permittivity = epsilon0 * properties.positive("relativePermittivity", 1);
+    const double gas = properties.positive("relativePermittivity", 1);
+    common.permittivity = epsilon0 * gas;
 
     common.neutralisingBackground = properties.yesNo("neutralisingBackground", false);
 
     fieldChoices choices;
     choices.selected = common;
     choices.fieldError = readFieldError(properties);
+    choices.dielectrics = readDielectricChoices(properties, gas);
     for (const std::string& method : FieldMethod::names()) {
         fieldChoice choice{method, common};
         choice.settings.method = method;
