@@ -20,6 +20,7 @@ CoupledStep::CoupledStep(DemPort& dem, FieldMethod& field, MPI_Comm communicator
 void CoupledStep::start()
 {
     dem_.setPartnerCutoff(method_.partnerCutoff());
+    dem_.chargeParticles();
     updateField();
     const PhaseTimer timer(times_, Phase::dem);
     dem_.handOver();
@@ -47,7 +48,7 @@ void CoupledStep::updateField()
         stopOnOpenBooks(books_);
     }
     const PhaseTimer timer(times_, Phase::dem);
-    dem_.setField(particles_, field_.field);
+    dem_.setField(particles_, field_.field, field_.ownResponse);
 }
 
 void CoupledStep::readParticles()

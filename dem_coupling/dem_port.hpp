@@ -60,6 +60,9 @@ struct ContactCounts {
     double particleParticle = 0;  ///< contacts that began
     double particleWall = 0;
     double largestRelaxation = 0;  ///< largest M of one contact in one step [-], see chargeGained
+    double strongFrozen = 0;       ///< contacts whose x passed 0.5 under `update frozen`: they may overshoot
+    double breakdowns = 0;         ///< times that the breakdown limit took charge off a particle
+    double limitedForces = 0;      ///< particles and steps whose field force was limited
 };
 
 /// What the coupling needs of a DEM program. SI units. Collective over the communicator unless said otherwise.
@@ -89,6 +92,8 @@ public:
     virtual void setPartnerCutoff(double cutoff) = 0;
     /// Whether the DEM may take particles out during the run. If not, every missing one counts as lost.
     virtual void allowRemovals(bool allowed) = 0;
+    /// Gives the particles of the script their initial charge, where it asks for one. Before the first field.
+    virtual void chargeParticles() {}
     /// Switches field force and charging on and computes the forces of the first step. No charge moves here.
     virtual void handOver() = 0;
 
@@ -96,7 +101,8 @@ public:
     virtual void particles(DemParticles& out) const = 0;  ///< this rank's particles, not collective
     /// Hands over the field [V/m] of the particles last given by particles(), in the same order, together with the
     /// positions and charges that made it.
-    virtual void setField(const DemParticles& particles, const Points& field) = 0;
+    /// @param ownResponse  share of the field that each particle's own images make, or no rows; see ParticleField
+    virtual void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) = 0;
     virtual void run(long steps) = 0;
     /// Particles that there must be, all ranks: those of the hand-over and those that appeared, less those that were taken
     /// out with permission.

@@ -2,7 +2,6 @@
 #include "dem_coupling/charging/charge_transfer.hpp"
 
 #include "electrostatics/constants.hpp"
-#include "electrostatics/contact_charging.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,7 @@ void ChargeTransfer::setPermittivity(double permittivity)
 {
     permittivity_ = permittivity;
     coulomb_ = 1.0 / (4.0 * pi * permittivity);
+    pairs_.resolve(permittivity);
 }
 
 void ChargeTransfer::setWalls(std::vector<int> types, std::vector<char> transfers)
@@ -30,9 +30,33 @@ void ChargeTransfer::setWalls(std::vector<int> types, std::vector<char> transfer
     toWall_.resize(wallTypes_.size());
 }
 
-double ChargeTransfer::ownField(const DemRows& rows, int row) const
+/// @param excess  charge [C] that does not count
+double ChargeTransfer::ownField(const DemRows& rows, int row, double excess) const
 {
-    return surfaceField(rows.charge[row], rows.radius[row], permittivity_);
+    return surfaceField(rows.charge[row] - excess, rows.radius[row], permittivity_);
+}
+
+/// Gamma_ab [V/m] of two particles.
+double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const
+{
+    double limit = law.limit(rows.radius[a], 1 / rows.radius[b]);
+    if (pairs_.spreads()) {
+        limit += pairs_.spreadOf(rows.type[a], rows.tag[a]) - pairs_.spreadOf(rows.type[b], rows.tag[b]);
+    }
+    return limit;
+}
+
+double ChargeTransfer::gainedBy(const ContactDrive& drive, double relaxation, double rate, double growth) const
+{
+    return update_ == WithinContact::updated ? chargeGained(drive, relaxation, rate, growth, permittivity_)
+                                             : chargeGainedFrozen(drive, rate, growth, permittivity_);
+}
+
+void ChargeTransfer::countFrozen(double xNow, double xBefore)
+{
+    if (xNow > 0.5 && xBefore <= 0.5) {
+        strongFrozen_ += 1;
+    }
 }
 
 void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<GrowingPair>& pairs,
@@ -44,18 +68,18 @@ void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<Growi
         if (!law.transfers) {
             continue;
         }
-        relaxationSums_[contact.first] += relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.first]);
+        relaxationSums_[contact.first] += relaxationNumber(law.rate, contact.growth, rows.radius[contact.first]);
         // The owner of a ghost sums its contacts itself.
         if (contact.second < rows.local) {
             relaxationSums_[contact.second] +=
-                relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.second]);
+                relaxationNumber(law.rate, contact.growth, rows.radius[contact.second]);
         }
     }
     for (const GrowingWallContact& contact : wallContacts) {
         const ChargingPair& law = pairs_.of(rows.type[contact.particle], wallTypes_[contact.wall]);
         if (law.transfers && wallTransfers_[contact.wall]) {
             relaxationSums_[contact.particle] +=
-                relaxationNumber(law.efficiency, contact.growth, rows.radius[contact.particle]);
+                ownFieldFactor_ * relaxationNumber(law.rate, contact.growth, rows.radius[contact.particle]);
         }
     }
 }
@@ -98,11 +122,23 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         const double sign = ordered ? 1.0 : -1.0;
         const double normal[3] = {sign * contact.normal[0], sign * contact.normal[1], sign * contact.normal[2]};
         const double relaxation = pairRelaxation(relaxationSums_[a], relaxationSums_[b],
-                                                 relaxationNumber(law.efficiency, contact.growth, rows.radius[a]),
-                                                 relaxationNumber(law.efficiency, contact.growth, rows.radius[b]));
-        const ContactDrive drive{law.transferLimit, ownField(rows, a), ownField(rows, b),
+                                                 relaxationNumber(law.rate, contact.growth, rows.radius[a]),
+                                                 relaxationNumber(law.rate, contact.growth, rows.radius[b]));
+        // What this contact has moved so far does not count when charges are frozen within it.
+        const double moved = update_ == WithinContact::frozen && contact.moved ? *contact.moved : 0;
+        const ContactDrive drive{limitOf(rows, law, a, b), ownField(rows, a, moved), ownField(rows, b, -moved),
                                  fieldAtContact(rows, a, b, normal)};
-        const double toA = chargeGained(drive, relaxation, law.efficiency, contact.growth, permittivity_);
+        const double toA = gainedBy(drive, relaxation, law.rate, contact.growth);
+        if (update_ == WithinContact::frozen) {
+            if (contact.moved) {
+                *contact.moved += toA;
+            }
+            if (a < rows.local) {
+                const double smaller = std::min(rows.radius[a], rows.radius[b]);
+                countFrozen(relaxationNumber(law.rate, contact.area, smaller),
+                            relaxationNumber(law.rate, std::max(contact.area - contact.growth, 0.0), smaller));
+            }
+        }
         if (a < rows.local) {
             gained_[a] += toA;
         }
@@ -118,9 +154,28 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
             continue;
         }
         const bool seesOthers = wallField_ == WallContactField::total && rows.held.rows;
-        const double fieldNormal = seesOthers ? dot(rows.held.rows[i], contact.normal) : 0.0;
-        const ContactDrive drive{law.transferLimit, ownField(rows, i), 0.0, fieldNormal};
-        const double gained = chargeGained(drive, relaxationSums_[i], law.efficiency, contact.growth, permittivity_);
+        double fieldNormal = 0;
+        if (seesOthers) {
+            // Gamma is calibrated without the walls' response to the particle's own charge (R17), so it is left out.
+            const double* held = rows.held.rows[i];
+            fieldNormal = dot(held, contact.normal) - dot(held + HeldField::ownResponse, contact.normal);
+        }
+        const bool frozen = update_ == WithinContact::frozen;
+        const double moved = frozen && contact.moved ? *contact.moved : 0;
+        double limit = law.limit(rows.radius[i], 0);
+        if (pairs_.spreads()) {
+            limit += pairs_.spreadOf(rows.type[i], rows.tag[i]);
+        }
+        const ContactDrive drive{limit, ownFieldFactor_ * ownField(rows, i, moved), 0.0, fieldNormal};
+        const double gained = gainedBy(drive, relaxationSums_[i], law.rate, contact.growth);
+        if (frozen) {
+            if (contact.moved) {
+                *contact.moved += gained;
+            }
+            const double before = std::max(contact.area - contact.growth, 0.0);
+            countFrozen(ownFieldFactor_ * relaxationNumber(law.rate, contact.area, rows.radius[i]),
+                        ownFieldFactor_ * relaxationNumber(law.rate, before, rows.radius[i]));
+        }
         gained_[i] += gained;
         toWall_[contact.wall] += -gained;
         largestRelaxation_ = std::max(largestRelaxation_, relaxationSums_[i]);

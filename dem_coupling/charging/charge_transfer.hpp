@@ -6,15 +6,19 @@
 #include "dem_coupling/charging/contact_recorder.hpp"
 #include "dem_coupling/charging/wall_contact_memory.hpp"
 #include "dem_coupling/dem_port.hpp"
+#include "electrostatics/contact_charging.hpp"
+#include "electrostatics/parameters/charging_efficiency.hpp"
 
 #include <limits>
 #include <vector>
 
 namespace him {
 
-/// The field handed to the DEM, per row, with the positions and charges that made it: Ex, Ey, Ez [V/m], x, y, z [m], q [C].
+/// The field handed to the DEM, per row, with the positions and charges that made it: Ex, Ey, Ez [V/m], x, y, z [m], q [C],
+/// and the share of the field that the particle's own images and induced charge make [V/m].
 struct HeldField {
-    static constexpr int width = 7;
+    static constexpr int width = 10;
+    static constexpr int ownResponse = 7;  ///< first of its three columns
     const double* const* rows = nullptr;  ///< null when the scene has no field
 };
 
@@ -40,6 +44,9 @@ public:
 
     void setPermittivity(double permittivity);
     void setWallContactField(WallContactField field) { wallField_ = field; }
+    void setUpdate(WithinContact update) { update_ = update; }
+    /// Whether the touching wall's image of the particle opposes charging too. It doubles the own field at the contact.
+    void setOwnImage(bool included) { ownFieldFactor_ = included ? 2 : 1; }
     void setPartnerCutoff(double cutoff) { partnerCutoff_ = cutoff; }
     /// One entry per wall.
     void setWalls(std::vector<int> types, std::vector<char> transfers);
@@ -51,6 +58,11 @@ public:
     }
 
     const ChargingPairs& pairs() const { return pairs_; }
+    /// After a change of the pairs call setPermittivity() again.
+    ChargingPairs& pairs() { return pairs_; }
+    double permittivity() const { return permittivity_; }
+    WithinContact update() const { return update_; }
+    bool ownImage() const { return ownFieldFactor_ == 2; }
 
     /// First half of a step: sums every particle's relaxation numbers. Afterwards relaxationSums() of the ghosts must be
     /// filled from their owners, like their charges.
@@ -66,9 +78,15 @@ public:
     std::vector<CompensatedSum>& toWall() { return toWall_; }
     const std::vector<CompensatedSum>& toWall() const { return toWall_; }
     double largestRelaxation() const { return largestRelaxation_; }
+    /// Contacts whose x passed 0.5 under `frozen`, above which it may overshoot; this rank.
+    double& strongFrozenContacts() { return strongFrozen_; }
+    double strongFrozenContacts() const { return strongFrozen_; }
 
 private:
-    double ownField(const DemRows& rows, int row) const;
+    double ownField(const DemRows& rows, int row, double excess) const;
+    double limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const;
+    double gainedBy(const ContactDrive& drive, double relaxation, double rate, double growth) const;
+    void countFrozen(double xNow, double xBefore);
     double fieldAtContact(const DemRows& rows, int a, int b, const double* normal) const;
 
     ChargingPairs pairs_;
@@ -84,6 +102,9 @@ private:
     std::vector<double> gained_;
     std::vector<CompensatedSum> toWall_;
     double largestRelaxation_ = 0;
+    WithinContact update_ = WithinContact::updated;
+    double ownFieldFactor_ = 1;
+    double strongFrozen_ = 0;
 };
 
 }  // namespace him

@@ -14,6 +14,9 @@ struct GrowingPair {
     int second;        ///< its partner, maybe a ghost
     double growth;     ///< dA > 0 [m2]
     double normal[3];  ///< unit vector from first to second
+    double area = 0;   ///< now [m2]
+    /// Charge that this contact has given to the particle of the lower tag since it began [C]; null where nobody keeps it.
+    double* moved = nullptr;
 };
 
 /// A particle that touches a wall in this step, growing or not. On a mesh wall one touch per facet.
@@ -29,6 +32,7 @@ struct WallTouch {
 struct ContactRecorder {
     AreaLaw areaLaw = AreaLaw::hertz;
     Reloading reloading = Reloading::counted;
+    bool keepsMoved = false;  ///< pairs carry GrowingPair::moved
     std::vector<GrowingPair> pairs;
     std::vector<WallTouch> touches;
     std::int64_t pairsBegun = 0;  ///< contacts that began in this step and that this rank counts

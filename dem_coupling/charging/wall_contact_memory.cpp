@@ -38,6 +38,7 @@ std::size_t WallContactMemory::pack(int row, double* buffer) const
         for (const double component : contact.normal) {
             buffer[n++] = component;
         }
+        buffer[n++] = contact.moved;
     }
     return n;
 }
@@ -53,6 +54,7 @@ std::size_t WallContactMemory::unpack(int row, const double* buffer)
         for (double& component : contact.normal) {
             component = buffer[n++];
         }
+        contact.moved = buffer[n++];
         contact.newArea = notTouched;
     }
     return n;
@@ -80,7 +82,7 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
     for (const WallTouch& touch : touches) {
         Contact* contact = find(touch.particle, touch);
         if (!contact) {
-            contacts_[touch.particle].push_back({touch.wall, 0.0, 0.0, {0, 0, 0}, notTouched});
+            contacts_[touch.particle].push_back({touch.wall, 0.0, 0.0, {0, 0, 0}, 0.0, notTouched});
             contact = &contacts_[touch.particle].back();
             ++begun;
         }
@@ -100,8 +102,12 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
             const double reference = reloading == Reloading::counted ? contact.area : contact.largestArea;
             const double growth = contact.newArea - reference;
             if (growth > 0) {
-                growing.push_back(
-                    {row, contact.wall, growth, {contact.normal[0], contact.normal[1], contact.normal[2]}});
+                growing.push_back({row,
+                                   contact.wall,
+                                   growth,
+                                   {contact.normal[0], contact.normal[1], contact.normal[2]},
+                                   contact.newArea,
+                                   &contact.moved});
             }
             contact.area = contact.newArea;
             contact.largestArea = std::max(contact.largestArea, contact.newArea);

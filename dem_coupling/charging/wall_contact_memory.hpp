@@ -14,6 +14,8 @@ struct GrowingWallContact {
     int wall;
     double growth;     ///< dA > 0 [m2]
     double normal[3];  ///< from the particle into the wall
+    double area = 0;   ///< now [m2]
+    double* moved = nullptr;  ///< charge that this contact has given to the particle since it began [C]
 };
 
 /// Contact areas of the last step per (particle, wall, direction). LIGGGHTS keeps contact history per triangle and does
@@ -29,12 +31,14 @@ public:
     void copyRow(int from, int to) { contacts_[to] = contacts_[from]; }
     void clearRow(int row) { contacts_[row].clear(); }
 
+    static constexpr std::size_t contactDoubles = 7;  ///< stored per contact
     /// Doubles needed to store a row, and storing and reading it (migration, restart). Both return the count.
     std::size_t packedSize(int row) const { return 1 + contactDoubles * contacts_[row].size(); }
     std::size_t pack(int row, double* buffer) const;
     std::size_t unpack(int row, const double* buffer);
 
     /// Takes the touches of one step of the rows [0, rows) and lists the contacts that grew. Contacts without a touch end.
+    /// The list points into this memory until its next change.
     /// @return number of contacts that began
     std::int64_t update(const std::vector<WallTouch>& touches, int rows, Reloading reloading,
                         std::vector<GrowingWallContact>& growing);
@@ -45,10 +49,9 @@ private:
         double area;         ///< at the last step [m2]
         double largestArea;  ///< [m2]
         double normal[3];
+        double moved;    ///< charge given to the particle since the contact began [C]
         double newArea;  ///< of this step; negative until a touch is seen
     };
-    static constexpr std::size_t contactDoubles = 6;
-
     Contact* find(int row, const WallTouch& touch);
 
     double cosCurvature_;

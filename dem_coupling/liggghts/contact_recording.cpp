@@ -21,9 +21,9 @@ ContactRecording::ContactRecording(LAMMPS_NS::LAMMPS* liggghts, LIGGGHTS::IConta
     if (wall_) {
         wallFix_ = dynamic_cast<const LAMMPS_NS::FixWallGran*>(setup);
     } else {
-        // Newton flag 0: an area does not change sign when the two particles swap places.
+        // Newton flag 0: neither changes sign when the two particles swap places. Charge moved counts towards the lower tag.
         history_ = setup->add_history_value("charging_area", "0");
-        setup->add_history_value("charging_largest_area", "0");
+        setup->add_history_value("charging_moved", "0");
     }
 }
 
@@ -58,20 +58,23 @@ void ContactRecording::touching(SurfacesIntersectData& data)
 
 void ContactRecording::recordPair(const SurfacesIntersectData& data)
 {
-    double& lastArea = data.contact_history[history_];
-    double& largestArea = data.contact_history[history_ + 1];
+    double& reference = data.contact_history[history_];  // area of the last step, or the largest so far
     const double area = contactArea(recorder_->areaLaw, effectiveRadius(data.radi, data.radj), data.deltan);
-    const double growth = area - (recorder_->reloading == Reloading::counted ? lastArea : largestArea);
+    const double growth = area - reference;
 
-    if (largestArea == 0 && (data.j < atom->nlocal || atom->tag[data.i] < atom->tag[data.j])) {
+    if (reference == 0 && (data.j < atom->nlocal || atom->tag[data.i] < atom->tag[data.j])) {
         ++recorder_->pairsBegun;  // a contact over a rank boundary is seen twice and counted by the lower tag
     }
-    lastArea = area;
-    largestArea = std::max(largestArea, area);
+    reference = recorder_->reloading == Reloading::counted ? area : std::max(reference, area);
 
     if (growth > 0 && fix_->contains(data.i) && fix_->contains(data.j)) {
         // LIGGGHTS' en points from j to i.
-        recorder_->pairs.push_back({data.i, data.j, growth, {-data.en[0], -data.en[1], -data.en[2]}});
+        recorder_->pairs.push_back({data.i,
+                                    data.j,
+                                    growth,
+                                    {-data.en[0], -data.en[1], -data.en[2]},
+                                    area,
+                                    recorder_->keepsMoved ? &data.contact_history[history_ + 1] : nullptr});
     }
 }
 

@@ -40,7 +40,7 @@ private:
 
     bool wall_;
     const LAMMPS_NS::Fix* wallFix_ = nullptr;  ///< the wall fix that owns this model; null for pairs
-    int history_ = -1;                         ///< first of two values per pair contact: area, largest area [m2]
+    int history_ = -1;                         ///< first of two values per pair contact: reference area [m2], charge moved [C]
     FixChargeGranContact* fix_ = nullptr;
     ContactRecorder* recorder_ = nullptr;
 };

@@ -2,11 +2,11 @@
 #include "dem_coupling/liggghts/efield_him_options.hpp"
 
 #include "dem_coupling/field_method.hpp"
+#include "dem_coupling/liggghts/word_reader.hpp"
 #include "electrostatics/constants.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 #include <stdexcept>
 
@@ -15,7 +15,8 @@ namespace him {
 namespace {
 
 constexpr const char* knownKeywords =
-    "method, cutoff, images, without_image, every, external, relative_permittivity, wall_contact_field";
+    "method, cutoff, images, without_image, every, external, relative_permittivity, wall_contact_field, limit_field_force, "
+    "field_force_limit_factor";
 
 std::string namesOf(const std::vector<DemWall>& walls)
 {
@@ -37,62 +38,7 @@ std::string methodsWithMesh(bool mesh)
     return names;
 }
 
-/// Takes the words one after the other. A missing word ends the reading, everything else is collected.
-class Reader {
-public:
-    Reader(const std::vector<std::string>& words, Complaints& complaints) : words_(words), complaints_(complaints) {}
-
-    bool done() const { return next_ == words_.size(); }
-
-    std::string word(const std::string& after)
-    {
-        if (done()) {
-            throw std::invalid_argument("something is missing after '" + after + "'");
-        }
-        return words_[next_++];
-    }
-
-    double number(const std::string& after)
-    {
-        const std::string text = word(after);
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-            complaints_.add(after, "found '" + text + "', but a finite number is expected");
-            return std::nan("");
-        }
-        return value;
-    }
-
-    double positive(const std::string& after, const std::string& unit)
-    {
-        const double value = number(after);
-        if (value <= 0) {
-            complaints_.add(after, "found " + words_[next_ - 1] + ", but a number above zero is expected " + unit);
-        }
-        return value;
-    }
-
-    /// 0 for the first word of `known`, 1 for the second.
-    int oneOf(const std::string& after, const std::array<const char*, 2>& known)
-    {
-        const std::string text = word(after);
-        for (int n = 0; n < 2; ++n) {
-            if (text == known[static_cast<std::size_t>(n)]) {
-                return n;
-            }
-        }
-        complaints_.add(after, "unknown word '" + text + "'; known: " + known[0] + ", " + known[1]);
-        return 0;
-    }
-
-private:
-    const std::vector<std::string>& words_;
-    Complaints& complaints_;
-    std::size_t next_ = 0;
-};
-
-void readEvery(Reader& words, EfieldHimOptions& options, Complaints& complaints)
+void readEvery(WordReader& words, EfieldHimOptions& options, Complaints& complaints)
 {
     const double every = words.positive("every", "[DEM steps]");
     if (every > 0 && (every != std::floor(every) || every > 1e9)) {
@@ -133,7 +79,7 @@ EfieldHimOptions readEfieldHimOptions(const std::vector<std::string>& words)
     EfieldHimOptions options;
     options.field.permittivity = epsilon0;
     Complaints complaints;
-    Reader reader(words, complaints);
+    WordReader reader(words, complaints);
     std::set<std::string> given;
     while (!reader.done()) {
         const std::string keyword = reader.word("");
@@ -161,6 +107,10 @@ EfieldHimOptions readEfieldHimOptions(const std::vector<std::string>& words)
         } else if (keyword == "wall_contact_field") {
             options.wallContactField =
                 reader.oneOf(keyword, {"total", "self"}) == 1 ? WallContactField::self : WallContactField::total;
+        } else if (keyword == "limit_field_force") {
+            options.limiter.active = reader.oneOf(keyword, {"no", "yes"}) == 1;
+        } else if (keyword == "field_force_limit_factor") {
+            options.limiter.factor = readLimitFactor(reader, complaints);
         } else {
             throw std::invalid_argument("unknown keyword '" + keyword + "'; known: " + knownKeywords);
         }

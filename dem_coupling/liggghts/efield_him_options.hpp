@@ -4,6 +4,7 @@
 #include "dem_coupling/complaints.hpp"
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/field_settings.hpp"
+#include "dem_coupling/liggghts/force_limiter.hpp"
 
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct EfieldHimOptions {
     long every = 1;                         ///< DEM steps between two field updates
     std::vector<std::string> withoutImage;  ///< names of walls that mirror nothing
     WallContactField wallContactField = WallContactField::total;
+    ForceLimiter limiter;
 };
 
 /// Reads the words behind the style name. Throws std::invalid_argument with everything that is wrong: unknown keywords and

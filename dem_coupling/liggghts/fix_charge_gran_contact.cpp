@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 
+#include "dem_coupling/liggghts/charge_gran_contact_options.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 #include "electrostatics/constants.hpp"
+#include "electrostatics/parameters/impact_area.hpp"
 
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
+#include "fix_property_global.h"
 #include "modify.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
@@ -38,65 +41,8 @@ FixChargeGranContact* FixChargeGranContact::find(LAMMPS_NS::LAMMPS* lmp)
 
 // ---------------------------------------------------------------------- script
 
-FixChargeGranContact::Options FixChargeGranContact::readOptions(int narg, char** arg)
-{
-    Options options{ChargingPairs(atom->ntypes)};
-    int next = 3;
-    const auto word = [&](const std::string& after) -> std::string {
-        if (next >= narg) {
-            throw std::invalid_argument("something is missing after '" + after + "'");
-        }
-        return arg[next++];
-    };
-    const auto expect = [&](const char* keyword, const std::string& after) {
-        const std::string found = word(after);
-        if (found != keyword) {
-            throw std::invalid_argument("expected '" + std::string(keyword) + "' after '" + after + "', found '" + found
-                                        + "'");
-        }
-    };
-    const auto number = [&](const std::string& after) {
-        return force->numeric(FLERR, const_cast<char*>(word(after).c_str()));
-    };
-    const auto type = [&](const std::string& after) {
-        return force->inumeric(FLERR, const_cast<char*>(word(after).c_str()));
-    };
-
-    while (next < narg) {
-        const std::string keyword = word("");
-        if (keyword == "pair") {
-            const int first = type("pair");
-            const int second = type("pair");
-            const std::string what = word("pair I J");
-            if (what == "none") {
-                options.pairs.setNone(first, second);
-            } else if (what == "gamma") {
-                const double gamma = number("gamma");
-                expect("kappa", "gamma <V/m>");
-                options.pairs.set(first, second, gamma, number("kappa"));
-            } else {
-                throw std::invalid_argument("after 'pair I J' comes 'gamma <V/m> kappa <->' or 'none', found '" + what
-                                            + "'");
-            }
-        } else if (keyword == "area") {
-            options.area = areaLawByName(word("area"));
-        } else if (keyword == "reloading") {
-            const std::string name = word("reloading");
-            if (name != "counted" && name != "beyondMaximum") {
-                throw std::invalid_argument("unknown reloading '" + name + "'; known: counted, beyondMaximum");
-            }
-            options.reloading = name == "counted" ? Reloading::counted : Reloading::beyondMaximum;
-        } else if (keyword == "curvature") {
-            options.curvature = number("curvature");
-        } else {
-            throw std::invalid_argument("unknown keyword '" + keyword + "'; known: pair, area, reloading, curvature");
-        }
-    }
-    return options;
-}
-
 FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg)
-    : Fix(liggghts, narg, arg), transfer_(ChargingPairs(1), epsilon0), wallMemory_(10), enabled_(!hosted)
+    : Fix(liggghts, narg, arg), transfer_(ChargingPairs(1), epsilon0), wallMemory_(10), enabled_(!hosted), initial_(1)
 {
     if (find(lmp)) {
         error->fix_error(FLERR, this, "there is already a fix charge/gran/contact; one holds all pairs");
@@ -113,12 +59,20 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
         error->fix_error(FLERR, this, "works in 'units si' only");
     }
     try {
-        Options options = readOptions(narg, arg);
+        ChargeGranContactOptions options =
+            readChargeGranContactOptions(std::vector<std::string>(arg + 3, arg + narg), atom->ntypes);
         recorder_.areaLaw = options.area;
         recorder_.reloading = options.reloading;
         curvature_ = options.curvature;
         wallMemory_ = WallContactMemory(options.curvature);
         transfer_ = ChargeTransfer(std::move(options.pairs), epsilon0);
+        transfer_.setUpdate(options.update);
+        transfer_.setOwnImage(options.ownImage);
+        recorder_.keepsMoved = options.update == WithinContact::frozen;
+        losses_ = options.losses;
+        initial_ = options.initial;
+        realModuli_ = options.realModuli;
+        roles_ = options.walls;
     } catch (const std::invalid_argument& wrong) {
         error->fix_error(FLERR, this, wrong.what());
     }
@@ -154,6 +108,16 @@ void FixChargeGranContact::init()
 {
     field_ = FixCoupleCfdEfield::find(lmp);
     refreshWalls();
+    for (const WallRole& role : roles_) {
+        if (std::none_of(walls_.begin(), walls_.end(), [&](const ListedWall& w) { return w.wall.name == role.name; })) {
+            error->fix_error(FLERR, this, ("wall " + role.name + ": the script has no such wall").c_str());
+        }
+    }
+    prepare();
+    if (!hosted && !told_) {
+        tell("Contact charging, fix " + std::string(id) + ":\n" + description());
+        told_ = true;
+    }
     const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
     transfer_.setMinimumImage(periodic ? shortenInBox : nullptr, domain);
 }
@@ -202,12 +166,20 @@ void FixChargeGranContact::refreshWalls()
     walls_ = std::move(now);
     transfer_.setWalls(std::move(types), std::move(transfers));
     transfer_.toWall() = std::move(given);
-    size_vector = 1 + static_cast<int>(walls_.size());
+    size_vector = 1 + static_cast<int>(walls_.size()) + 4;
 }
 
 void FixChargeGranContact::setWallRoles(const std::vector<WallRole>& roles)
 {
-    roles_ = roles;
+    // What the script says about a wall stands; the case's word joins it.
+    for (const WallRole& role : roles) {
+        const auto own = std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == role.name; });
+        if (own == roles_.end()) {
+            roles_.push_back(role);
+        } else {
+            own->transfersCharge = own->transfersCharge && role.transfersCharge;
+        }
+    }
     refreshWalls();
 }
 
@@ -218,16 +190,113 @@ void FixChargeGranContact::handOver()
     arrivals_ = false;
 }
 
-std::string FixChargeGranContact::description() const
+std::string FixChargeGranContact::description()
 {
+    findSoftening();
     std::ostringstream text;
     text << transfer_.pairs().describe() << "    contact area " << nameOf(recorder_.areaLaw) << ", reloading "
          << (recorder_.reloading == Reloading::counted ? "counted" : "beyondMaximum") << ", curvature " << curvature_
-         << " degrees\n";
+         << " degrees, update " << nameOf(transfer_.update()) << ", own image at walls "
+         << (transfer_.ownImage() ? "included" : "excluded") << '\n';
+    if (transfer_.pairs().acceleration() != 1) {
+        text << "    ACCELERATED: every charge transfer is multiplied by a = " << transfer_.pairs().acceleration()
+             << "; times of charging are not real times\n";
+    }
+    if (losses_.relaxationTime() > 0) {
+        text << "    leakage to ground, relaxation time " << losses_.relaxationTime() << " s\n";
+    }
+    if (losses_.breakdownField() > 0) {
+        text << "    breakdown above a surface field of " << losses_.breakdownField() << " V/m\n";
+    }
+    for (const WallRole& role : roles_) {
+        if (!role.transfersCharge) {
+            text << "    wall " << role.name << ": no charge transfer\n";
+        }
+    }
+    text << initial_.describe();
     return text.str();
 }
 
+void FixChargeGranContact::tell(const std::string& text) const
+{
+    if (comm->me != 0) {
+        return;
+    }
+    for (FILE* file : {screen, logfile}) {
+        if (file) {
+            std::fputs(text.c_str(), file);
+        }
+    }
+}
+
+void FixChargeGranContact::findSoftening()
+{
+    if (realModuli_.empty()) {
+        return;
+    }
+    const int types = atom->ntypes;
+    auto* young = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
+        modify->find_fix_property("youngsModulus", "property/global", "peratomtype", types, 0, style));
+    auto* poisson = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
+        modify->find_fix_property("poissonsRatio", "property/global", "peratomtype", types, 0, style));
+    const auto real = [&](int type) {
+        const auto given = realModuli_.find(type);
+        return Elasticity{given == realModuli_.end() ? young->compute_vector(type - 1) : given->second, poisson->compute_vector(type - 1)};
+    };
+    const auto soft = [&](int type) { return Elasticity{young->compute_vector(type - 1), poisson->compute_vector(type - 1)}; };
+    for (const auto& [type, modulus] : realModuli_) {
+        if (modulus < soft(type).youngsModulus) {
+            error->fix_error(FLERR, this,
+                             ("realModulus " + std::to_string(type) + ": the real modulus is below the script's youngsModulus, which is meant to be the "
+                                                                      "softened one")
+                                 .c_str());
+        }
+        for (int other = 1; other <= types; ++other) {
+            transfer_.pairs().setSoftening(type, other, softeningCorrection(effectiveModulus(soft(type), soft(other)),
+                                                                             effectiveModulus(real(type), real(other))));
+        }
+    }
+    transfer_.setPermittivity(transfer_.permittivity());
+}
+
 // ---------------------------------------------------------------------- the step
+
+void FixChargeGranContact::prepare()
+{
+    findSoftening();
+    chargeNewParticles();
+    if (enabled_) {
+        bookArrivals();
+    }
+}
+
+void FixChargeGranContact::chargeNewParticles()
+{
+    if (!initial_.any()) {
+        return;
+    }
+    for (int i = 0; i < atom->nlocal; ++i) {
+        if (charged_[i]) {
+            continue;
+        }
+        charged_[i] = 1;
+        if (atom->q[i] == 0 && contains(i)) {
+            atom->q[i] = initial_.of(atom->type[i], atom->tag[i], atom->radius[i], transfer_.pairs(), transfer_.permittivity());
+            if (booked_[i]) {
+                inserted_ += atom->q[i];  // it was there without charge when the books were opened
+            }
+        }
+    }
+}
+
+void FixChargeGranContact::loseCharge()
+{
+    for (int i = 0; i < atom->nlocal; ++i) {
+        if (contains(i)) {
+            atom->q[i] = losses_.after(atom->q[i], atom->radius[i], update->dt, transfer_.permittivity());
+        }
+    }
+}
 
 void FixChargeGranContact::bookArrivals()
 {
@@ -247,6 +316,7 @@ void FixChargeGranContact::end_of_step()
     pairsBegun_ += static_cast<double>(recorder_.pairsBegun);
     if (enabled_) {
         if (arrivals_) {
+            chargeNewParticles();
             bookArrivals();
         }
         DemRows rows;
@@ -264,8 +334,31 @@ void FixChargeGranContact::end_of_step()
             comm->forward_comm_fix(this);
         }
         transfer_.move(rows, recorder_.pairs, growingWallContacts_);
+        if (losses_.active()) {
+            loseCharge();
+        }
     }
     recorder_.clear();
+}
+
+void FixChargeGranContact::post_run()
+{
+    if (hosted) {
+        return;  // the host reports
+    }
+    const ContactCounts counts = contacts();
+    std::ostringstream text;
+    if (transfer_.pairs().acceleration() != 1) {
+        text << "Contact charging was ACCELERATED by a = " << transfer_.pairs().acceleration() << '\n';
+    }
+    if (counts.strongFrozen > 0) {
+        text << "WARNING: " << counts.strongFrozen << " contacts passed x = kappa A/(4 pi r^2) = 0.5 under 'update frozen', above which it may overshoot. "
+                "Use 'update updated' or a smaller kappa\n";
+    }
+    if (losses_.breakdownField() > 0) {
+        text << "Breakdown limited the charge of particles " << counts.breakdowns << " times\n";
+    }
+    tell(text.str());
 }
 
 int FixChargeGranContact::pack_comm(int n, int* list, double* buffer, int, int*)
@@ -291,7 +384,7 @@ void FixChargeGranContact::unpack_comm(int n, int first, double* buffer)
 
 ChargeMovements FixChargeGranContact::movements() const
 {
-    std::vector<double> mine{inserted_.value()};
+    std::vector<double> mine{inserted_.value(), losses_.leaked().value(), losses_.brokenDown().value()};
     for (const CompensatedSum& given : transfer_.toWall()) {
         mine.push_back(given.value());
     }
@@ -299,18 +392,22 @@ ChargeMovements FixChargeGranContact::movements() const
     MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, world);
     ChargeMovements total;
     total.inserted = all[0];
-    total.toWall.assign(all.begin() + 1, all.end());
+    total.leaked = all[1];
+    total.breakdown = all[2];
+    total.toWall.assign(all.begin() + 3, all.end());
     return total;
 }
 
 ContactCounts FixChargeGranContact::contacts() const
 {
-    double mine[2] = {pairsBegun_, wallContactsBegun_};
-    double all[2];
-    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+    const double mine[4] = {pairsBegun_, wallContactsBegun_, transfer_.strongFrozenContacts(), losses_.breakdowns()};
+    double all[4];
+    MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
     ContactCounts counts;
     counts.particleParticle = all[0];
     counts.particleWall = all[1];
+    counts.strongFrozen = all[2];
+    counts.breakdowns = all[3];
     double largest = transfer_.largestRelaxation();
     MPI_Allreduce(&largest, &counts.largestRelaxation, 1, MPI_DOUBLE, MPI_MAX, world);
     return counts;
@@ -318,7 +415,17 @@ ContactCounts FixChargeGranContact::contacts() const
 
 double FixChargeGranContact::compute_vector(int n)
 {
-    const double mine = n == 0 ? inserted_.value() : transfer_.toWall().at(n - 1).value();
+    const int walls = static_cast<int>(walls_.size());
+    double mine = 0;
+    if (n == 0) {
+        mine = inserted_.value();
+    } else if (n <= walls) {
+        mine = transfer_.toWall()[static_cast<std::size_t>(n - 1)].value();
+    } else {
+        const double rest[4] = {losses_.leaked().value(), losses_.brokenDown().value(), losses_.breakdowns(),
+                                transfer_.strongFrozenContacts()};
+        mine = rest[n - 1 - walls];
+    }
     double all = 0;
     MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
     return all;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/charging/charge_losses.hpp"
 #include "dem_coupling/charging/charge_transfer.hpp"
 #include "dem_coupling/charging/contact_recorder.hpp"
+#include "dem_coupling/charging/initial_charge.hpp"
 #include "dem_coupling/charging/wall_contact_memory.hpp"
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/liggghts/wall_list.hpp"
 
 #include "fix.h"
 
-#include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -44,7 +46,9 @@ public:
     void setWallRoles(const std::vector<WallRole>& roles);
     /// Switches charging on and opens the books: the charge that is there now has not been inserted.
     void handOver();
-    std::string description() const;
+    std::string description();
+    /// Gives particles that the script made their initial charge, before the first field is computed from it.
+    void prepare();
     /// Sums over ranks. Collective.
     ChargeMovements movements() const;
     ContactCounts contacts() const;
@@ -53,7 +57,10 @@ public:
     int setmask() override;
     void init() override;
     void end_of_step() override;
-    double compute_vector(int n) override;  ///< [0] inserted, [1 + w] given to wall w [C]
+    void post_run() override;
+    /// [0] inserted, [1 + w] given to wall w, then leaked and lost to breakdown [C], times that breakdown acted, contacts
+    /// whose x passed 0.5 under `update frozen`.
+    double compute_vector(int n) override;
     void grow_arrays(int rows) override;
     void copy_arrays(int from, int to, int deleting) override;
     void set_arrays(int row) override;
@@ -69,13 +76,12 @@ public:
     void restart(char* buffer) override;
 
 private:
-    struct Options {
-        ChargingPairs pairs;
-        AreaLaw area = AreaLaw::hertz;
-        Reloading reloading = Reloading::counted;
-        double curvature = 10;
-    };
-    Options readOptions(int narg, char** arg);
+    /// a_corr of every pair from the real moduli and those of the script (S2.12).
+    void findSoftening();
+    /// Charge of particles that are seen for the first time and bring none (initialCharge).
+    void chargeNewParticles();
+    void loseCharge();
+    void tell(const std::string& text) const;
     std::size_t packRow(int row, double* buffer) const;
     void bookArrivals();
 
@@ -85,7 +91,8 @@ private:
     std::vector<GrowingWallContact> growingWallContacts_;
     std::vector<ListedWall> walls_;
     std::vector<WallRole> roles_;
-    std::vector<char> booked_;  ///< per row: the particle's charge stands in the books
+    std::vector<char> booked_;   ///< per row: the particle's charge stands in the books
+    std::vector<char> charged_;  ///< per row: the particle got its initial charge, or brought one
     bool arrivals_ = false;     ///< some row is not booked yet
     bool enabled_;
     FixCoupleCfdEfield* field_ = nullptr;
@@ -94,6 +101,10 @@ private:
     double pairsBegun_ = 0;
     double wallContactsBegun_ = 0;
     double curvature_ = 0;
+    ChargeLosses losses_;
+    InitialCharges initial_;
+    std::map<int, double> realModuli_;
+    bool told_ = false;  ///< the description stands in the log
 };
 
 }  // namespace him

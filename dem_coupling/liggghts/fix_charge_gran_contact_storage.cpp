@@ -20,25 +20,29 @@ void FixChargeGranContact::grow_arrays(int rows)
 {
     wallMemory_.resize(rows);
     booked_.resize(rows, 0);
+    charged_.resize(rows, 0);
 }
 
 void FixChargeGranContact::copy_arrays(int from, int to, int)
 {
     wallMemory_.copyRow(from, to);
     booked_[to] = booked_[from];
+    charged_[to] = charged_[from];
 }
 
 void FixChargeGranContact::set_arrays(int row)
 {
     wallMemory_.clearRow(row);
     booked_[row] = 0;
+    charged_[row] = 0;
     arrivals_ = true;
 }
 
 std::size_t FixChargeGranContact::packRow(int row, double* buffer) const
 {
     buffer[0] = booked_[row];
-    return 1 + wallMemory_.pack(row, buffer + 1);
+    buffer[1] = charged_[row];
+    return 2 + wallMemory_.pack(row, buffer + 2);
 }
 
 int FixChargeGranContact::pack_exchange(int row, double* buffer)
@@ -49,18 +53,19 @@ int FixChargeGranContact::pack_exchange(int row, double* buffer)
 int FixChargeGranContact::unpack_exchange(int row, double* buffer)
 {
     booked_[row] = static_cast<char>(buffer[0]);
+    charged_[row] = static_cast<char>(buffer[1]);
     arrivals_ = arrivals_ || !booked_[row];
-    return static_cast<int>(1 + wallMemory_.unpack(row, buffer + 1));
+    return static_cast<int>(2 + wallMemory_.unpack(row, buffer + 2));
 }
 
 int FixChargeGranContact::size_restart(int row)
 {
-    return static_cast<int>(2 + wallMemory_.packedSize(row));
+    return static_cast<int>(3 + wallMemory_.packedSize(row));
 }
 
 int FixChargeGranContact::maxsize_restart()
 {
-    return 2 + 1 + 6 * restartContacts;
+    return 3 + 1 + static_cast<int>(WallContactMemory::contactDoubles) * restartContacts;
 }
 
 int FixChargeGranContact::pack_restart(int row, double* buffer)
@@ -79,16 +84,19 @@ void FixChargeGranContact::unpack_restart(int row, int nth)
         at += static_cast<int>(extra[at]);
     }
     booked_[row] = static_cast<char>(extra[at + 1]);
-    wallMemory_.unpack(row, extra + at + 2);
+    charged_[row] = static_cast<char>(extra[at + 2]);
+    wallMemory_.unpack(row, extra + at + 3);
 }
 
 void FixChargeGranContact::write_restart(FILE* file)
 {
     const ChargeMovements total = movements();
+    const ContactCounts counts = contacts();
     if (comm->me != 0) {
         return;
     }
-    std::vector<double> state{total.inserted, static_cast<double>(total.toWall.size())};
+    std::vector<double> state{total.inserted,    total.leaked,        total.breakdown,
+                              counts.breakdowns, counts.strongFrozen, static_cast<double>(total.toWall.size())};
     state.insert(state.end(), total.toWall.begin(), total.toWall.end());
     const int bytes = static_cast<int>(state.size() * sizeof(double));
     fwrite(&bytes, sizeof(int), 1, file);
@@ -103,7 +111,11 @@ void FixChargeGranContact::restart(char* buffer)
     }
     const auto* state = reinterpret_cast<const double*>(buffer);
     inserted_ = CompensatedSum(state[0]);
-    restartedToWall_.assign(state + 2, state + 2 + static_cast<std::size_t>(state[1]));
+    losses_.leaked() = CompensatedSum(state[1]);
+    losses_.brokenDown() = CompensatedSum(state[2]);
+    losses_.breakdowns() = state[3];
+    transfer_.strongFrozenContacts() = state[4];
+    restartedToWall_.assign(state + 6, state + 6 + static_cast<std::size_t>(state[5]));
     refreshWalls();
 }
 

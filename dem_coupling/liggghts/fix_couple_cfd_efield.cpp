@@ -8,21 +8,56 @@
 #include "error.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
+#include "update.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <stdexcept>
+#include <vector>
 
 namespace him {
 namespace {
 
 constexpr int width = HeldField::width;
 
+ForceLimiter readForceLimiter(const std::vector<std::string>& words)
+{
+    ForceLimiter limiter;
+    Complaints complaints;
+    WordReader reader(words, complaints);
+    while (!reader.done()) {
+        const std::string keyword = reader.word("");
+        if (keyword == "limit_field_force") {
+            limiter.active = reader.oneOf(keyword, {"no", "yes"}) == 1;
+        } else if (keyword == "field_force_limit_factor") {
+            limiter.factor = readLimitFactor(reader, complaints);
+        } else {
+            throw std::invalid_argument("unknown keyword '" + keyword + "'; known: limit_field_force, field_force_limit_factor");
+        }
+    }
+    if (!complaints.none()) {
+        throw std::invalid_argument(complaints.text());
+    }
+    return limiter;
+}
+
 }  // namespace
 
 FixCoupleCfdEfield::FixCoupleCfdEfield(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg) : Fix(liggghts, narg, arg)
 {
-    if (narg != 3 && std::strcmp(style, "couple/cfd/efield") == 0) {
-        error->fix_error(FLERR, this, "takes no keywords");
+    if (std::strcmp(style, "couple/cfd/efield") == 0) {
+        try {
+            limiter_ = readForceLimiter(std::vector<std::string>(arg + 3, arg + narg));
+        } catch (const std::invalid_argument& wrong) {
+            error->fix_error(FLERR, this, wrong.what());
+        }
+        vector_flag = 1;
+        size_vector = 1;
+        extvector = 0;
+        global_freq = 1;
     }
     if (!atom->q_flag) {
         error->fix_error(FLERR, this, "needs charged particles: write 'atom_style hybrid granular charge'");
@@ -59,12 +94,14 @@ FixCoupleCfdEfield* FixCoupleCfdEfield::find(LAMMPS_NS::LAMMPS* lmp)
     return nullptr;
 }
 
-void FixCoupleCfdEfield::setField(const Points& field)
+void FixCoupleCfdEfield::setField(const Points& field, const Points& ownResponse)
 {
+    const bool knowsOwn = ownResponse.rows() == field.rows();
     for (int i = 0; i < atom->nlocal; ++i) {
         for (int d = 0; d < 3; ++d) {
             held_[i][d] = field(i, d);
             held_[i][3 + d] = atom->x[i][d];
+            held_[i][HeldField::ownResponse + d] = knowsOwn ? ownResponse(i, d) : 0.0;
         }
         held_[i][6] = atom->q[i];
     }
@@ -87,9 +124,39 @@ void FixCoupleCfdEfield::setup(int flag)
 void FixCoupleCfdEfield::post_force(int)
 {
     for (int i = 0; i < atom->nlocal; ++i) {
-        if (atom->mask[i] & groupbit) {
-            for (int d = 0; d < 3; ++d) {
-                atom->f[i][d] += atom->q[i] * held_[i][d];
+        if (!(atom->mask[i] & groupbit)) {
+            continue;
+        }
+        double charge = atom->q[i];
+        if (limiter_.active) {
+            const double* e = held_[i];
+            const double strength = std::fabs(charge) * std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+            charge *= limiter_.share(strength, atom->rmass[i], neighbor->skin, update->dt);
+        }
+        for (int d = 0; d < 3; ++d) {
+            atom->f[i][d] += charge * held_[i][d];
+        }
+    }
+}
+
+double FixCoupleCfdEfield::compute_limited() const
+{
+    double all = 0;
+    MPI_Allreduce(&limiter_.hits, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+    return all;
+}
+
+void FixCoupleCfdEfield::post_run()
+{
+    if (!limiter_.active) {
+        return;
+    }
+    const double hits = compute_limited();
+    if (comm->me == 0) {
+        for (FILE* file : {screen, logfile}) {
+            if (file) {
+                std::fprintf(file, "fix %s limited the field force %.0f times (particles times steps), factor %g\n", id, hits,
+                             limiter_.factor);
             }
         }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/dem_port.hpp"
+#include "dem_coupling/liggghts/force_limiter.hpp"
 
 #include "fix.h"
 
@@ -9,7 +10,7 @@
 
 namespace him {
 
-/// fix ID group couple/cfd/efield
+/// fix ID group couple/cfd/efield [limit_field_force yes|no] [field_force_limit_factor F]
 ///
 /// Holds the electric field that the host computed at every particle, with the position and charge that made it, and adds
 /// F = q E (S2.16) with the particle's charge of the moment. The host sets the field; it stays until the next one.
@@ -23,13 +24,19 @@ public:
 
     /// Field [V/m] at the owned particles, in the order of their rows. Collective: ghosts get it too, before the first set-up
     /// when they are made.
-    void setField(const Points& field);
+    /// @param ownResponse  share of it that the particle's own images make, or no rows
+    void setField(const Points& field, const Points& ownResponse);
     /// Per row, see HeldField.
     const double* const* held() const { return held_; }
     /// Particles that appeared on this rank since this fix was made.
     std::int64_t arrivals() const { return arrivals_; }
 
+    /// Particles and steps whose force was limited. Collective.
+    double compute_limited() const;
+
     int setmask() override;
+    void post_run() override;
+    double compute_vector(int) override { return compute_limited(); }
     void setup(int) override;
     void post_force(int) override;
     void grow_arrays(int rows) override;
@@ -45,6 +52,7 @@ public:
 protected:
     double** held_ = nullptr;  ///< see HeldField
     bool ghostsExist_ = false;
+    ForceLimiter limiter_;
 
 private:
     std::int64_t arrivals_ = 0;

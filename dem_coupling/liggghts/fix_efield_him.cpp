@@ -57,13 +57,14 @@ FixEfieldHim::FixEfieldHim(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg) : 
     } catch (const std::invalid_argument& wrong) {
         error->fix_error(FLERR, this, wrong.what());
     }
+    limiter_ = options_.limiter;
     nevery = static_cast<int>(options_.every);
     restart_peratom = 1;
     restart_global = 1;
     scalar_flag = 1;
     extscalar = 1;
     vector_flag = 1;
-    size_vector = 2;
+    size_vector = 3;
     extvector = 0;
     global_freq = 1;
     atom->add_callback(1);
@@ -166,12 +167,15 @@ void FixEfieldHim::computeField()
     MPI_Allreduce(MPI_IN_PLACE, &largestField_, 1, MPI_DOUBLE, MPI_MAX, world);
     MPI_Allreduce(&field_.energy, &energy_, 1, MPI_DOUBLE, MPI_SUM, world);
     pairs_ = static_cast<double>(field_.pairs);
-    setField(field_.field);
+    setField(field_.field, field_.ownResponse);
     valid_ = true;
 }
 
 double FixEfieldHim::compute_vector(int n)
 {
+    if (n == 2) {
+        return compute_limited();
+    }
     return n == 0 ? largestField_ : pairs_;
 }
 

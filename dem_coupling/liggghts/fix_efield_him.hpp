@@ -24,7 +24,8 @@ public:
     void setup(int flag) override;
     void end_of_step() override;
     double compute_scalar() override { return energy_; }  ///< electrostatic energy at the last update [J]
-    double compute_vector(int n) override;                ///< [0] largest field [V/m], [1] pairs, of the last update
+    /// [0] largest field [V/m], [1] pairs, of the last update; [2] particles and steps whose force was limited
+    double compute_vector(int n) override;
 
     // The held field restarts, so that a run from a restart file goes on as the one that wrote it.
     void write_restart(FILE* file) override;

@@ -5,6 +5,7 @@
 #include "dem_coupling/liggghts/fix_constrain_plane.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 #include "dem_coupling/liggghts/fix_efield_him.hpp"
+#include "dem_coupling/liggghts/fix_enable_electric_field.hpp"
 #include "dem_coupling/liggghts/private_access.hpp"
 
 #include "lammps.h"
@@ -41,6 +42,7 @@ void registerFixes(LAMMPS_NS::LAMMPS* lmp)
         {"constrain/plane", &create<FixConstrainPlane>},
         {"couple/cfd/efield", &create<FixCoupleCfdEfield>},
         {"efield/him", &create<FixEfieldHim>},
+        {"enable_electric_field", &create<FixEnableElectricField>},
     };
     for (const auto& [name, creator] : ours) {
         if (!styles.emplace(name, creator).second) {

@@ -4,6 +4,7 @@
 #include "dem_coupling/liggghts/contact_models.hpp"
 #include "dem_coupling/liggghts/fix_constrain_plane.hpp"
 #include "dem_coupling/liggghts/fix_efield_him.hpp"
+#include "dem_coupling/liggghts/fix_enable_electric_field.hpp"
 #include "dem_coupling/liggghts/fix_registry.hpp"
 #include "dem_coupling/liggghts/particle_rows.hpp"
 #include "dem_coupling/liggghts/private_access.hpp"
@@ -16,10 +17,12 @@
 #include "pair_gran.h"
 #include "update.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -242,8 +245,23 @@ void LiggghtsDem::setPermittivity(double permittivity)
 
 void LiggghtsDem::setPartnerCutoff(double cutoff)
 {
+    // A method that knows no cutoff gives the whole field, which is what the script is after.
+    const FixEnableElectricField* enabled = FixEnableElectricField::find(lmp_.get());
+    if (enabled && std::isfinite(cutoff) && std::fabs(cutoff / enabled->cutoff() - 1) > 1e-9) {
+        std::ostringstream text;
+        text << script_ << ": field_cutoff_radius " << enabled->cutoff() << " m of enable_electric_field and the near cutoff " << cutoff
+             << " m of constant/electrostaticProperties differ. Make them equal";
+        throw std::runtime_error(text.str());
+    }
     if (charging_) {
         charging_->transfer().setPartnerCutoff(cutoff);
+    }
+}
+
+void LiggghtsDem::chargeParticles()
+{
+    if (charging_) {
+        charging_->prepare();
     }
 }
 
@@ -275,16 +293,19 @@ void LiggghtsDem::particles(DemParticles& out) const
     readRows(*lmp_->atom, out);
 }
 
-void LiggghtsDem::setField(const DemParticles& particles, const Points& field)
+void LiggghtsDem::setField(const DemParticles& particles, const Points& field, const Points& ownResponse)
 {
     if (particles.size() != lmp_->atom->nlocal || field.rows() != particles.size()) {
         throw std::logic_error("setField: the field is not that of the particles last read");
     }
     if (!field_) {
+        field_ = FixCoupleCfdEfield::find(lmp_.get());  // the script may hold one of its own, with a limiter
+    }
+    if (!field_) {
         command(std::string("fix ") + fieldFixId + " all couple/cfd/efield");
         field_ = static_cast<FixCoupleCfdEfield*>(lmp_->modify->find_fix_id(fieldFixId));
     }
-    field_->setField(field);
+    field_->setField(field, ownResponse);
 }
 
 void LiggghtsDem::run(long steps)
@@ -337,7 +358,9 @@ ChargeMovements LiggghtsDem::movements() const
 
 ContactCounts LiggghtsDem::contacts() const
 {
-    return charging_ ? charging_->contacts() : ContactCounts();
+    ContactCounts counts = charging_ ? charging_->contacts() : ContactCounts();
+    counts.limitedForces = field_ ? field_->compute_limited() : 0;
+    return counts;
 }
 
 void LiggghtsDem::writeCheckpoint(const std::string& file)

@@ -32,10 +32,11 @@ public:
     void setPermittivity(double permittivity) override;
     void setPartnerCutoff(double cutoff) override;
     void allowRemovals(bool allowed) override { removalsAllowed_ = allowed; }
+    void chargeParticles() override;
     void handOver() override;
 
     void particles(DemParticles& out) const override;
-    void setField(const DemParticles& particles, const Points& field) override;
+    void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
     std::int64_t particleCount() const override { return expected_; }
 

@@ -142,6 +142,15 @@ void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Co
     line("contacts with particles, walls",
          formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));
     line("largest relaxation number", formatted("%.3g", contacts.largestRelaxation));
+    if (contacts.strongFrozen > 0) {
+        line("WARNING: frozen contacts above x 0.5", formatted("%.0f", contacts.strongFrozen));
+    }
+    if (contacts.breakdowns > 0) {
+        line("charges limited by breakdown", formatted("%.0f", contacts.breakdowns));
+    }
+    if (contacts.limitedForces > 0) {
+        line("field forces limited", formatted("%.0f", contacts.limitedForces));
+    }
     line("charge books, closure error [C]", formatted("%.3g", step.books().closureError()));
     line("charge books, relative error", formatted("%.3g", step.books().relativeClosureError()));
     Info << "\nSummary\n" << table.str().c_str() << endl;

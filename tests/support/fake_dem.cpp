@@ -15,7 +15,7 @@ FakeDem::FakeDem(DemParticles particles, const Box& box, const std::array<bool, 
     MPI_Allreduce(MPI_IN_PLACE, &believedCount, 1, MPI_INT64_T, MPI_SUM, communicator);
 }
 
-void FakeDem::setField(const DemParticles& particles, const Points& field)
+void FakeDem::setField(const DemParticles& particles, const Points& field, const Points&)
 {
     if (particles.tag != mine.tag || field.rows() != mine.size()) {
         throw std::logic_error("FakeDem::setField: not the particles that were given out");

@@ -29,7 +29,7 @@ public:
     void allowRemovals(bool) override {}
     void handOver() override { handedOver = true; }
     void particles(DemParticles& out) const override { out = mine; }
-    void setField(const DemParticles& particles, const Points& field) override;
+    void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
     std::int64_t particleCount() const override { return believedCount; }
     ChargeMovements movements() const override { return moved; }
