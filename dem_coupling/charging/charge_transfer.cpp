@@ -14,6 +14,16 @@ double dot(const double* a, const double* b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// Adds to a sum and returns the part of the addend that rounding kept out of it (Knuth's two-sum).
+double addRounded(double& sum, double addend)
+{
+    const double next = sum + addend;
+    const double added = next - sum;
+    const double lost = (sum - (next - added)) + (addend - added);
+    sum = next;
+    return lost;
+}
+
 }  // namespace
 
 void ChargeTransfer::setPermittivity(double permittivity)
@@ -180,8 +190,16 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         toWall_[contact.wall] += -gained;
         largestRelaxation_ = std::max(largestRelaxation_, relaxationSums_[i]);
     }
+    // What rounding keeps from a particle stays with the wall. Close to saturation every step would lose a gain below the last
+    // digit of the charge, always with the same sign.
     for (int i = 0; i < rows.local; ++i) {
-        rows.charge[i] += gained_[i];
+        gained_[i] = addRounded(rows.charge[i], gained_[i]);
+    }
+    for (const GrowingWallContact& contact : wallContacts) {
+        if (wallTransfers_[contact.wall] && pairs_.of(rows.type[contact.particle], wallTypes_[contact.wall]).transfers) {
+            toWall_[contact.wall] += gained_[contact.particle];
+            gained_[contact.particle] = 0;
+        }
     }
 }
 

@@ -290,4 +290,21 @@ TEST(ChargeTransfer, wallContactFieldSelfIgnoresTheFieldOfTheOthersAndTotalSeesI
     }
 }
 
+TEST(Walls, keepWhatRoundingKeepsFromAParticleSoThatTheBooksCloseOverAMillionStepsAtSaturation)
+{
+    // At saturation the drive is a rounding error of one sign, and each gain is below the last digit of the charge.
+    for (const double gamma : {-8.03e5, -8.41e5, 7.66e5, -1.52e6, 3.3e5}) {
+        Scene scene(1);
+        scene.size[0] = 5.555e-3;
+        ChargeTransfer transfer = law(0, gamma, 20);
+        const std::vector<GrowingWallContact> wall = {{0, 0, 2e-7, {0, 0, -1}}};
+        for (int n = 0; n < 1000000; ++n) {
+            step(transfer, scene, {}, wall);
+        }
+        const double saturation = saturationCharge(gamma, scene.size[0], epsilon0);
+        EXPECT_NEAR(scene.charge[0] / saturation, 1, 1e-12);
+        EXPECT_LE(std::abs(scene.charge[0] + transfer.toWall()[0].value()), 1e-15 * std::abs(saturation)) << gamma;
+    }
+}
+
 }  // namespace
