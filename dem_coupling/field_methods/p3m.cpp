@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/field_methods/p3m.hpp"
 
+#include "dem_coupling/field_methods/conducting_planes.hpp"
 #include "dem_coupling/field_methods/shared_steps.hpp"
 #include "electrostatics/constants.hpp"
 
@@ -61,7 +62,8 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
       deposit_(halo_.mesh(), surroundings_, radius_, exponent_),
       gather_(halo_.mesh(), surroundings_, static_cast<int>(settings.p3m.gather)),
       near_(radius_, settings.permittivity),
-      cloud_(radius_, exponent_)
+      cloud_(radius_, exponent_),
+      planes_(conductingPlanes(mesh.arrays(), communicator))
 {
     const MeshArrays& arrays = mesh.arrays();
     int special[2] = {0, 0};
@@ -100,6 +102,9 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
     result.field = atRows_.leftCols(3);
     result.potential = atRows_.col(3);
     result.ownResponse = atRows_.rightCols(3);
+    if (!planes_.empty()) {
+        ownImageField(planes_, particles, settings_.permittivity, std::numeric_limits<double>::infinity(), images_, result.ownResponse);
+    }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
 }

@@ -3,6 +3,7 @@
 
 #include "dem_coupling/exchange/particles_on_mesh.hpp"
 #include "dem_coupling/field_method.hpp"
+#include "dem_coupling/field_methods/wall_images.hpp"
 #include "electrostatics/near_field.hpp"
 #include "electrostatics/p3m/cloud.hpp"
 #include "electrostatics/p3m/cloud_deposit.hpp"
@@ -54,6 +55,8 @@ private:
     ParticlesOnMesh particlesOnMesh_;
     bool matched_ = false;     ///< the mesh solves with the operator that is matched to the gather
     bool correct_ = false;     ///< deferred correction by a second solve
+    WallImages planes_;     ///< of a convex mesh with plane conducting sides, else none
+    WallImages::Set images_;
     bool faceValues_ = false;  ///< some boundary face, on any rank, has a value besides the case's own
 
     CloudSources sources_;

@@ -2,7 +2,6 @@
 #include "dem_coupling/field_methods/pairwise_sum.hpp"
 
 #include "dem_coupling/field_methods/shared_steps.hpp"
-#include "electrostatics/constants.hpp"
 #include "electrostatics/near_field.hpp"
 
 #include <limits>
@@ -78,26 +77,10 @@ void PairwiseSum::compute(const DemParticles& particles, ParticleField& result)
     result.pairs = sumPairs(pairs, failure, particles, failedSources, communicator_);
     result.ownResponse.resize(0, 3);
     if (settings_.pairwiseSum.images) {
-        addOwnImages(particles, result);
+        ownImageField(walls_, particles, settings_.permittivity, settings_.pairwiseSum.truncation, images_, result.ownResponse);
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
-}
-
-void PairwiseSum::addOwnImages(const DemParticles& particles, ParticleField& result)
-{
-    result.ownResponse.setZero(particles.size(), 3);
-    walls_.make(particles.position, particles.charge, images_);
-    const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
-    for (std::size_t n = 0; n < images_.owner.size(); ++n) {
-        const Index row = images_.owner[n];
-        const Vector3 r = (particles.position.row(row) - images_.position.row(static_cast<Index>(n))).matrix().transpose();
-        const double distance = r.norm();
-        if (distance <= settings_.pairwiseSum.truncation) {
-            const double scale = coulombConstant * images_.charge[static_cast<Index>(n)] / (distance * distance * distance);
-            result.ownResponse.row(row) += (scale * r).transpose().array();
-        }
-    }
 }
 
 }  // namespace him

@@ -19,8 +19,6 @@ public:
 private:
     /// Sends the visiting particles on to the next rank and receives the previous rank's.
     void passOn();
-    /// Field of each particle's own images, into result.ownResponse.
-    void addOwnImages(const DemParticles& particles, ParticleField& result);
 
     FieldSettings settings_;
     MPI_Comm communicator_;

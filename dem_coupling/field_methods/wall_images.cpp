@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/field_methods/wall_images.hpp"
 
+#include "electrostatics/constants.hpp"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -81,6 +83,23 @@ void WallImages::make(const Points& position, const Scalars& charge, Set& images
     for (Index n = 0; n < count; ++n) {
         images.position.row(n) = places[static_cast<std::size_t>(n)].transpose().array();
         images.charge[n] = charges[static_cast<std::size_t>(n)];
+    }
+}
+
+void ownImageField(const WallImages& walls, const DemParticles& particles, double permittivity, double reach,
+                   WallImages::Set& images, Points& field)
+{
+    field.setZero(particles.size(), 3);
+    walls.make(particles.position, particles.charge, images);
+    const double coulombConstant = 1.0 / (4.0 * pi * permittivity);
+    for (std::size_t n = 0; n < images.owner.size(); ++n) {
+        const Index row = images.owner[n];
+        const Vector3 r = (particles.position.row(row) - images.position.row(static_cast<Index>(n))).matrix().transpose();
+        const double distance = r.norm();
+        if (distance <= reach) {
+            const double scale = coulombConstant * images.charge[static_cast<Index>(n)] / (distance * distance * distance);
+            field.row(row) += (scale * r).transpose().array();
+        }
     }
 }
 

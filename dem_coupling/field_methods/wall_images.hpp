@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/field_settings.hpp"
 
 #include <vector>
@@ -21,9 +22,15 @@ public:
         std::vector<Index> owner;
     };
     void make(const Points& position, const Scalars& charge, Set& images) const;
+    bool empty() const { return walls_.empty(); }
 
 private:
     std::vector<ImageWall> walls_;
 };
+
+/// Coulomb field [V/m] of every particle's own images, those within `reach` [m], per row.
+/// @param images  scratch
+void ownImageField(const WallImages& walls, const DemParticles& particles, double permittivity, double reach,
+                   WallImages::Set& images, Points& field);
 
 }  // namespace him

@@ -89,6 +89,21 @@ TEST(IsolatedSphere, isHeldBackByTheWallsWhenHimKeepsItsOwnResponse)
     EXPECT_GT(largest, 0.01);
 }
 
+TEST(IsolatedSphere, stopsWithinHalfAPerCentOfSaturationWithP3mAndItsSelfTerm)
+{
+    FieldSettings settings;
+    settings.method = "p3m";
+    settings.p3m.selfTerm = true;
+    for (const double cloudCells : {3.0, 4.0}) {
+        settings.p3m.cloudCells = cloudCells;
+        for (const Index cells : {20, 40}) {
+            for (const Vector3& place : places) {
+                EXPECT_NEAR(remainder(settings, place, down, cells), 0, 5e-3) << place.transpose() << ", " << cells << " cells";
+            }
+        }
+    }
+}
+
 }  // namespace
 
 }  // namespace him
