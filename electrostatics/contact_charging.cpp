@@ -54,12 +54,7 @@ double relaxationNumber(double efficiency, double areaGrowth, double radius)
 double relaxationFactor(double relaxation)
 {
     requireNotNegative("relaxation", relaxation);
-    constexpr double seriesLimit = 1e-3;  // the first term left out is M^5/720, below the last bit
-    if (relaxation < seriesLimit) {
-        const double m = relaxation;
-        return 1.0 - m / 2.0 * (1.0 - m / 3.0 * (1.0 - m / 4.0 * (1.0 - m / 5.0)));
-    }
-    return -std::expm1(-relaxation) / relaxation;
+    return relaxationFactorOf(relaxation);
 }
 
 double chargeGained(const ContactDrive& drive, double relaxation, double efficiency, double areaGrowth,

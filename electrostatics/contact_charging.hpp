@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
+
 namespace him {
 
 /// Field [V/m] at the surface of a uniformly charged sphere: q / (4 pi eps r^2), positive outwards.
@@ -18,6 +20,17 @@ double relaxationNumber(double efficiency, double areaGrowth, double radius);
 
 /// (1 - exp(-M)) / M for M >= 0, by series below M = 1e-3, so that it tends to 1 without cancellation.
 double relaxationFactor(double relaxation);
+
+/// The same for an M that is known to be >= 0. Inline: charging calls it for every contact.
+inline double relaxationFactorOf(double relaxation)
+{
+    constexpr double seriesLimit = 1e-3;  // the first term left out is M^5/720, below the last bit
+    if (relaxation < seriesLimit) {
+        const double m = relaxation;
+        return 1.0 - m / 2.0 * (1.0 - m / 3.0 * (1.0 - m / 4.0 * (1.0 - m / 5.0)));
+    }
+    return -std::expm1(-relaxation) / relaxation;
+}
 
 /// One growing contact in the canonical order of its two bodies: a is the particle (the lower tag in a pair), b its
 /// partner or the wall; the normal points from a to b.

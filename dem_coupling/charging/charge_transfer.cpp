@@ -40,12 +40,6 @@ void ChargeTransfer::setWalls(std::vector<int> types, std::vector<char> transfer
     toWall_.resize(wallTypes_.size());
 }
 
-/// @param excess  charge [C] that does not count
-double ChargeTransfer::ownField(const DemRows& rows, int row, double excess) const
-{
-    return surfaceField(rows.charge[row] - excess, rows.radius[row], permittivity_);
-}
-
 /// Gamma_ab [V/m] of two particles.
 double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const
 {
@@ -56,10 +50,11 @@ double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& law, int
     return limit;
 }
 
-double ChargeTransfer::gainedBy(const ContactDrive& drive, double relaxation, double rate, double growth) const
+/// chargeGained() and chargeGainedFrozen() without their checks: kappa and growth are positive here.
+double ChargeTransfer::gainedBy(double drive, double relaxation, double rate, double growth) const
 {
-    return update_ == WithinContact::updated ? chargeGained(drive, relaxation, rate, growth, permittivity_)
-                                             : chargeGainedFrozen(drive, rate, growth, permittivity_);
+    const double explicitly = permittivity_ * rate * growth * drive;
+    return update_ == WithinContact::updated ? explicitly * relaxationFactorOf(relaxation) : explicitly;
 }
 
 void ChargeTransfer::countFrozen(double xNow, double xBefore)
@@ -73,23 +68,27 @@ void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<Growi
                                     const std::vector<GrowingWallContact>& wallContacts)
 {
     relaxationSums_.assign(rows.all, 0.0);
+    inverseSurface_.resize(rows.all);
+    for (int row = 0; row < rows.all; ++row) {
+        inverseSurface_[row] = 1 / (4 * pi * rows.radius[row] * rows.radius[row]);
+    }
     for (const GrowingPair& contact : pairs) {
         const ChargingPair& law = pairs_.of(rows.type[contact.first], rows.type[contact.second]);
         if (!law.transfers) {
             continue;
         }
-        relaxationSums_[contact.first] += relaxationNumber(law.rate, contact.growth, rows.radius[contact.first]);
+        relaxationSums_[contact.first] += numberOf(contact.first, law.rate, contact.growth);
         // The owner of a ghost sums its contacts itself.
         if (contact.second < rows.local) {
             relaxationSums_[contact.second] +=
-                relaxationNumber(law.rate, contact.growth, rows.radius[contact.second]);
+                numberOf(contact.second, law.rate, contact.growth);
         }
     }
     for (const GrowingWallContact& contact : wallContacts) {
         const ChargingPair& law = pairs_.of(rows.type[contact.particle], wallTypes_[contact.wall]);
         if (law.transfers && wallTransfers_[contact.wall]) {
             relaxationSums_[contact.particle] +=
-                ownFieldFactor_ * relaxationNumber(law.rate, contact.growth, rows.radius[contact.particle]);
+                ownFieldFactor_ * numberOf(contact.particle, law.rate, contact.growth);
         }
     }
 }
@@ -132,21 +131,21 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         const double sign = ordered ? 1.0 : -1.0;
         const double normal[3] = {sign * contact.normal[0], sign * contact.normal[1], sign * contact.normal[2]};
         const double relaxation = pairRelaxation(relaxationSums_[a], relaxationSums_[b],
-                                                 relaxationNumber(law.rate, contact.growth, rows.radius[a]),
-                                                 relaxationNumber(law.rate, contact.growth, rows.radius[b]));
+                                                 numberOf(a, law.rate, contact.growth),
+                                                 numberOf(b, law.rate, contact.growth));
         // What this contact has moved so far does not count when charges are frozen within it.
         const double moved = update_ == WithinContact::frozen && contact.moved ? *contact.moved : 0;
-        const ContactDrive drive{limitOf(rows, law, a, b), ownField(rows, a, moved), ownField(rows, b, -moved),
-                                 fieldAtContact(rows, a, b, normal)};
+        const double drive = limitOf(rows, law, a, b) - surfaceFieldOf(a, rows.charge[a] - moved)
+                             + surfaceFieldOf(b, rows.charge[b] + moved) - fieldAtContact(rows, a, b, normal);
         const double toA = gainedBy(drive, relaxation, law.rate, contact.growth);
         if (update_ == WithinContact::frozen) {
             if (contact.moved) {
                 *contact.moved += toA;
             }
             if (a < rows.local) {
-                const double smaller = std::min(rows.radius[a], rows.radius[b]);
-                countFrozen(relaxationNumber(law.rate, contact.area, smaller),
-                            relaxationNumber(law.rate, std::max(contact.area - contact.growth, 0.0), smaller));
+                const int smaller = rows.radius[a] < rows.radius[b] ? a : b;
+                countFrozen(numberOf(smaller, law.rate, contact.area),
+                            numberOf(smaller, law.rate, std::max(contact.area - contact.growth, 0.0)));
             }
         }
         if (a < rows.local) {
@@ -176,15 +175,15 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         if (pairs_.spreads()) {
             limit += pairs_.spreadOf(rows.type[i], rows.tag[i]);
         }
-        const ContactDrive drive{limit, ownFieldFactor_ * ownField(rows, i, moved), 0.0, fieldNormal};
+        const double drive = limit - ownFieldFactor_ * surfaceFieldOf(i, rows.charge[i] - moved) - fieldNormal;
         const double gained = gainedBy(drive, relaxationSums_[i], law.rate, contact.growth);
         if (frozen) {
             if (contact.moved) {
                 *contact.moved += gained;
             }
             const double before = std::max(contact.area - contact.growth, 0.0);
-            countFrozen(ownFieldFactor_ * relaxationNumber(law.rate, contact.area, rows.radius[i]),
-                        ownFieldFactor_ * relaxationNumber(law.rate, before, rows.radius[i]));
+            countFrozen(ownFieldFactor_ * numberOf(i, law.rate, contact.area),
+                        ownFieldFactor_ * numberOf(i, law.rate, before));
         }
         gained_[i] += gained;
         toWall_[contact.wall] += -gained;

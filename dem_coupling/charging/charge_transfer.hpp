@@ -83,9 +83,12 @@ public:
     double strongFrozenContacts() const { return strongFrozen_; }
 
 private:
-    double ownField(const DemRows& rows, int row, double excess) const;
     double limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const;
-    double gainedBy(const ContactDrive& drive, double relaxation, double rate, double growth) const;
+    /// x [-] of a contact of that particle, see relaxationNumber().
+    double numberOf(int row, double rate, double growth) const { return rate * growth * inverseSurface_[row]; }
+    /// Field [V/m] of a charge at the surface of that particle, see surfaceField().
+    double surfaceFieldOf(int row, double charge) const { return charge * inverseSurface_[row] / permittivity_; }
+    double gainedBy(double drive, double relaxation, double rate, double growth) const;
     void countFrozen(double xNow, double xBefore);
     double fieldAtContact(const DemRows& rows, int a, int b, const double* normal) const;
 
@@ -98,6 +101,7 @@ private:
     void* box_ = nullptr;
     std::vector<int> wallTypes_;
     std::vector<char> wallTransfers_;
+    std::vector<double> inverseSurface_;  ///< 1/(4 pi r^2) per row [m-2]
     std::vector<double> relaxationSums_;
     std::vector<double> gained_;
     std::vector<CompensatedSum> toWall_;

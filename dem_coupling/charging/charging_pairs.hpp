@@ -43,6 +43,9 @@ struct ChargingPair {
     /// Gamma_ij [V/m] of a particle of the first type and one of the second; a wall has an infinite radius.
     double limit(double radiusFirst, double inverseRadiusSecond) const
     {
+        if (potentialFirst == 0 && potentialSecond == 0) {
+            return transferLimit;  // most pairs: no division
+        }
         return transferLimit + potentialFirst / radiusFirst - potentialSecond * inverseRadiusSecond;
     }
 };

@@ -31,6 +31,7 @@ struct WallTouch {
 /// The contact model moves no charge itself: it is also called in set-up and by computes.
 struct ContactRecorder {
     AreaLaw areaLaw = AreaLaw::hertz;
+    double areaFactor = 0;  ///< contact area over effective radius times overlap, of areaLaw
     Reloading reloading = Reloading::counted;
     bool keepsMoved = false;  ///< pairs carry GrowingPair::moved
     std::vector<GrowingPair> pairs;

@@ -59,7 +59,8 @@ void ContactRecording::touching(SurfacesIntersectData& data)
 void ContactRecording::recordPair(const SurfacesIntersectData& data)
 {
     double& reference = data.contact_history[history_];  // area of the last step, or the largest so far
-    const double area = contactArea(recorder_->areaLaw, effectiveRadius(data.radi, data.radj), data.deltan);
+    // contactArea() and effectiveRadius() without their checks: LIGGGHTS' radii and overlaps are positive here.
+    const double area = recorder_->areaFactor * data.radi * data.radj / (data.radi + data.radj) * data.deltan;
     const double growth = area - reference;
 
     if (reference == 0 && (data.j < atom->nlocal || atom->tag[data.i] < atom->tag[data.j])) {

@@ -62,6 +62,7 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
         ChargeGranContactOptions options =
             readChargeGranContactOptions(std::vector<std::string>(arg + 3, arg + narg), atom->ntypes);
         recorder_.areaLaw = options.area;
+        recorder_.areaFactor = contactArea(options.area, 1, 1);
         recorder_.reloading = options.reloading;
         curvature_ = options.curvature;
         wallMemory_ = WallContactMemory(options.curvature);
@@ -123,11 +124,6 @@ void FixChargeGranContact::init()
 }
 
 // ---------------------------------------------------------------------- walls
-
-bool FixChargeGranContact::contains(int row) const
-{
-    return atom->mask[row] & groupbit;
-}
 
 int FixChargeGranContact::wallRow(const LAMMPS_NS::Fix* wall) const
 {

@@ -9,6 +9,7 @@
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/liggghts/wall_list.hpp"
 
+#include "atom.h"
 #include "fix.h"
 
 #include <map>
@@ -35,7 +36,7 @@ public:
 
     // --- for the contact model
     ContactRecorder& recorder() { return recorder_; }
-    bool contains(int row) const;
+    bool contains(int row) const { return atom->mask[row] & groupbit; }
     int wallRow(const LAMMPS_NS::Fix* wall) const;
     /// Reads the list of walls again; keeps the charges given to walls that are still there.
     void refreshWalls();
