@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""calibrateGamma on runs whose answer is known."""
+
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+
+class CalibrateGamma(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_with(self, table, *targets):
+        (self.folder / "runs.dat").write_text(table)
+        program = os.path.join(os.environ["HIMFOAM_BIN"], "calibrateGamma")
+        options = [word for target in targets for word in ("-target", str(target))]
+        return subprocess.run([sys.executable, program, "-runs", str(self.folder / "runs.dat"), *options], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+
+    def gammas(self, table, *targets):
+        done = self.run_with(table, *targets)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return [float(line.split()[1]) for line in done.stdout.splitlines() if not line.startswith("#")], done.stdout
+
+    def charging_run(self, name, limit, tau, end=3.0):
+        rows = ["%.10g %.15g" % (t, 1e-12 + limit * -math.expm1(-t / tau)) for t in (end * n / 60 for n in range(61))]
+        (self.folder / name).write_text("# some words\n# Time total\n" + "\n".join(rows) + "\n")
+
+    def test_gamma_is_linear_between_runs_and_exact_at_them(self):
+        table = "8e5 4e-5\n4e5 1e-5 # the smallest\n1.2e6 6e-5\n"
+        found, text = self.gammas(table, 1e-5, 2.5e-5, 5e-5, 6e-5)
+        for value, exact in zip(found, (4e5, 6e5, 1e6, 1.2e6)):
+            self.assertAlmostEqual(value / exact, 1, delta=1e-7)
+        self.assertNotIn("extrapolated", text)
+
+    def test_beyond_the_runs_the_line_goes_on_and_says_so(self):
+        found, text = self.gammas("4e5 1e-5\n8e5 4e-5\n", 5.5e-5, -0.5e-5)
+        self.assertAlmostEqual(found[0] / 1e6, 1, delta=1e-7)
+        self.assertAlmostEqual(found[1] / 2e5, 1, delta=1e-7)
+        self.assertEqual(text.count("extrapolated beyond the runs"), 2)
+
+    def test_saturated_charges_come_from_the_fitted_curve(self):
+        self.charging_run("low.dat", 2e-8, 1.1)
+        self.charging_run("high.dat", 6e-8, 0.8)
+        # 1 g: (1e-12 C at the start + Q_inf)/m
+        found, _ = self.gammas("4e5 low.dat 1e-3\n8e5 high.dat 1e-3\n", 4e-5 + 1e-9)
+        self.assertAlmostEqual(found[0] / 6e5, 1, delta=1e-5)
+
+    def test_runs_that_can_not_be_read_are_listed_together(self):
+        self.charging_run("short.dat", 2e-8, 50.0)
+        done = self.run_with("4e5 short.dat 1e-3\n4e5 1e-5 0 0 0\n5e5 none.dat 1e-3\n6e5 short.dat -1\n", 1e-5)
+        self.assertNotEqual(done.returncode, 0)
+        for part in ("line 1: ", "line 2: found 5 words", "line 3: ", "line 4: a mass of -1 kg is not positive"):
+            self.assertIn(part, done.stdout)
+        self.assertIn("at least two runs", self.run_with("4e5 1e-5\n", 1e-5).stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
