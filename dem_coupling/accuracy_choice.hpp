@@ -22,8 +22,20 @@ constexpr double curvedWallError = 0.016;
 /// (cases/speedAgainstError/doc/report.md). Throws std::invalid_argument unless accuracy >= smallestAccuracy().
 AccuracyChoice chooseForAccuracy(double accuracy);
 
-/// Error that was measured for settings like these in the worst scene with plane walls. NaN where nobody has measured it:
-/// other methods than p3m, clouds in metres, a plain gather with large clouds.
+/// Error of the pair sum with the first images between parallel planes, whose images of images it leaves out: worst of a bed, a
+/// cloud and wall layers of 1e3 to 1e4 charges in a grounded box.
+constexpr double errorBetweenParallelWalls = 0.015;
+
+/// Whether all pairs with the first images of a box cost less time than p3m solved directly in it. From the times per pair, per
+/// particle and per cell of cases/speedAgainstError.
+bool pairSumIsCheaper(Index particles, Index cells);
+
+/// The six sides of a box as walls to mirror at.
+std::vector<ImageWall> wallsOf(const Box& box);
+
+/// Error that was measured for settings like these in the worst scene with plane walls. For pairwiseSum: 0 where it is exact,
+/// without walls or with planes of which no two are parallel. NaN where nobody has measured it: other methods, clouds in
+/// metres, a plain gather with large clouds, images in cylinders, truncated sums.
 double expectedError(const FieldSettings& settings);
 
 }  // namespace him

@@ -38,9 +38,10 @@ public:
     virtual std::string description() const = 0;
 
     /// The reference for a method: in a rectangular box of grounded, insulated or periodic sides the exact field with all
-    /// images; without a mesh and without images the sum over all pairs. Null where there is none, or where the method is
-    /// its own reference. Collective.
-    static std::unique_ptr<FieldReference> find(const FieldSettings& settings, const PoissonMesh* mesh,
+    /// images; on another mesh of not too many cells a stricter p3m (strict_p3m.hpp); without a mesh and without images the sum
+    /// over all pairs. Null where there is none, or where the method is its own reference. Collective.
+    /// @param mesh  may be null; outlives the reference
+    static std::unique_ptr<FieldReference> find(const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
                                                 const std::array<bool, 3>& periodic, MPI_Comm communicator);
 };
 

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <mpi.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct ParticleField {
     /// Share of `field` that the particle's own images and induced charges make [V/m], so that field - ownResponse is the
     /// field of the others; empty when the method does not know it.
     Points ownResponse;
+};
+
+/// Largest field that a method's mesh makes of a particle's charge at the particle's own cell, though it should make none.
+struct OwnCellField {
+    double share = 0;  ///< of the field at the particle's surface, q/(4 pi eps r^2) [-]
+    int tag = 0;       ///< the particle; 0 when no cell is uneven
 };
 
 /// A way to get the field at every particle from all charges. compute() is collective.
@@ -52,6 +59,14 @@ public:
     /// Field of all charges at these particles, plus the external field. Throws std::runtime_error, the same on every
     /// rank, when two particles share a position or one is outside a mesh that should hold it.
     virtual void compute(const DemParticles& particles, ParticleField& result) = 0;
+
+    /// Of the particles last given to compute(), those in the most uneven cells away from walls; nothing where a method has no
+    /// such field, or takes it out. Costs a few Poisson solves and leaves no trace of them. Collective.
+    virtual std::optional<OwnCellField> ownCellField(const DemParticles& particles)
+    {
+        static_cast<void>(particles);
+        return std::nullopt;
+    }
 
     /// See DemPort::setPartnerCutoff.
     virtual double partnerCutoff() const = 0;

@@ -4,6 +4,7 @@
 #include "electrostatics/mesh_arrays.hpp"
 #include "electrostatics/types.hpp"
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -69,6 +70,15 @@ public:
     virtual bool useMatchedOperator() { return false; }
     /// Back to the finite-volume operator, when another method has asked for the matched one.
     virtual void useFiniteVolumeOperator() {}
+
+    /// What the next solve starts from. Put back, it makes solves in between leave no trace: a run with probes and references
+    /// goes on bit for bit as one without. Null where a mesh has nothing to keep.
+    struct Kept {
+        virtual ~Kept() = default;
+    };
+    virtual std::unique_ptr<Kept> keep() const { return nullptr; }
+    /// Collective.
+    virtual void restore(const Kept* kept) { static_cast<void>(kept); }
 
     /// One line for logs and tables: cells, solver, tolerance.
     virtual std::string description() const { return {}; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/field_error.hpp"
 #include "dem_coupling/field_error/box_of_mesh.hpp"
+#include "dem_coupling/field_error/box_of_walls.hpp"
+#include "dem_coupling/field_error/strict_p3m.hpp"
 #include "electrostatics/near_field.hpp"
 
 namespace him {
@@ -53,14 +55,23 @@ private:
 
 }  // namespace
 
-std::unique_ptr<FieldReference> FieldReference::find(const FieldSettings& settings, const PoissonMesh* mesh,
-                                                     const std::array<bool, 3>& periodic, MPI_Comm communicator)
+std::unique_ptr<FieldReference> FieldReference::find(const FieldSettings& settings, PoissonMesh* mesh,
+                                                     const Box& demBox, const std::array<bool, 3>& periodic,
+                                                     MPI_Comm communicator)
 {
     if (mesh) {
         if (const auto space = boxOfMesh(*mesh, periodic, communicator)) {
             return std::make_unique<BoxReference>(*space, settings.permittivity);
         }
+        if (StrictP3mReference::serves(settings, *mesh, demBox, periodic, communicator)) {
+            return std::make_unique<StrictP3mReference>(settings, *mesh, demBox, periodic, communicator);
+        }
         return nullptr;
+    }
+    if (settings.method == "pairwiseSum" && settings.pairwiseSum.images) {
+        if (const auto space = boxOfWalls(settings.pairwiseSum.imageWalls)) {
+            return std::make_unique<BoxReference>(*space, settings.permittivity);
+        }
     }
     const bool anyPeriodic = periodic[0] || periodic[1] || periodic[2];
     if (settings.method == "directTruncation" && !anyPeriodic) {

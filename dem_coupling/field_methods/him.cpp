@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/field_methods/him.hpp"
 
+#include "dem_coupling/field_methods/own_cell_field.hpp"
 #include "dem_coupling/field_methods/shared_steps.hpp"
 
 #include <limits>
@@ -61,6 +62,14 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     result.potential.resize(0);
     result.energy = std::numeric_limits<double>::quiet_NaN();
     addExternalField(settings_.externalField, result);
+}
+
+std::optional<OwnCellField> Him::ownCellField(const DemParticles& particles)
+{
+    if (settings_.him.removeOwnCellResponse) {
+        return std::nullopt;
+    }
+    return probeOwnCellField(mesh_, locator_, particles, settings_.permittivity, communicator_);
 }
 
 void Him::extendOwnCellTable(Index particles)

@@ -18,6 +18,7 @@ public:
         MPI_Comm communicator, PhaseTimes& times);
 
     void compute(const DemParticles& particles, ParticleField& result) override;
+    std::optional<OwnCellField> ownCellField(const DemParticles& particles) override;
     double partnerCutoff() const override { return settings_.nearCutoff; }
     bool hasPotential() const override { return false; }
 

@@ -150,14 +150,17 @@ void findImageWalls(caseSettings& settings, const DemPort& dem, Complaints& comp
             continue;
         }
         if (!wall.primitive) {
-            complaints.add(where, "the grounded DEM wall " + wall.name
-                                      + " is a mesh, and the pair sum mirrors charges in planes and cylinders only. Use "
-                                        "primitive walls, or fieldMethod p3m.");
+            complaints.add(where,
+                           "the grounded DEM wall " + wall.name
+                               + " is a mesh, and the pair sum mirrors charges in planes and cylinders only. Use "
+                                 "primitive walls, or fieldMethod p3m.");
         } else {
             sum.imageWalls.push_back(wall.image);
         }
     }
-    if (sum.imageWalls.empty() && complaints.none()) {
+    if (sum.imageWalls.empty() && settings.methodByAccuracy) {
+        sum.images = false;
+    } else if (sum.imageWalls.empty() && complaints.none()) {
         complaints.add(where, "the DEM scene has no grounded wall to mirror charges in. Map walls to grounded in "
                               "constant/couplingProperties, or write images no.");
     }

@@ -13,6 +13,9 @@ namespace {
 /// Bounding boxes and bins overlap by this share of the mesh size, so that round-off opens no gap between them.
 constexpr double overlap = 1e-9;
 
+/// A point is well inside a cell when it is further from its faces than this share of the mesh size.
+constexpr double wellApart = 1e-12;
+
 /// A face is plane when no point is further from its plane than this share of its size.
 constexpr double planeness = 1e-9;
 
@@ -42,21 +45,16 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
     const double margin = overlap * bounds_.size().maxCoeff();
     bounds_ = bounds_.grownBy(margin);
 
-    std::vector<bool> plane(static_cast<std::size_t>(mesh_.nFaces()));
-    for (Foam::label face = 0; face < mesh_.nFaces(); ++face) {
-        plane[static_cast<std::size_t>(face)] = isPlane(mesh_, face);
-    }
+    planeStart_.push_back(0);
     for (Foam::label cell = 0; cell < mesh_.nCells(); ++cell) {
         Box box;
-        bool planeFaced = true;
         for (const Foam::label face : mesh_.cells()[cell]) {
-            planeFaced = planeFaced && plane[static_cast<std::size_t>(face)];
             for (const Foam::label point : mesh_.faces()[face]) {
                 box.extend(toEigen(mesh_.points()[point]));
             }
         }
         cellBox_.push_back(box.grownBy(margin));
-        planeFaced_.push_back(planeFaced);
+        listFacePlanes(cell);
     }
 
     const double edge = std::cbrt(bounds_.size().prod() / mesh_.nCells());
@@ -87,6 +85,34 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
     for (std::size_t cell = 0; cell < cellBox_.size(); ++cell) {
         forEachBinOf(cellBox_[cell], [&](std::size_t bin) { binCells_[next[bin]++] = static_cast<Foam::label>(cell); });
     }
+    middleCell_.reserve(static_cast<std::size_t>(bins_.prod()));
+    for (int i = 0; i < bins_.x(); ++i) {
+        for (int j = 0; j < bins_.y(); ++j) {
+            for (int k = 0; k < bins_.z(); ++k) {
+                const Vector3 middle = bounds_.lower + ((Eigen::Array3d(i, j, k) + 0.5) * binSize_).matrix();
+                const Foam::label cell = search(middle, binIndex(i, j, k));
+                const bool planeFaced =
+                    cell >= 0
+                    && planeStart_[static_cast<std::size_t>(cell)] < planeStart_[static_cast<std::size_t>(cell) + 1];
+                middleCell_.push_back(planeFaced ? cell : -1);
+            }
+        }
+    }
+}
+
+/// Appends the planes of the cell's faces, or nothing when one of them is not plane.
+void cellLocator::listFacePlanes(Foam::label cell)
+{
+    const Foam::cell& faces = mesh_.cells()[cell];
+    if (std::all_of(faces.begin(), faces.end(), [this](Foam::label face) { return isPlane(mesh_, face); })) {
+        const double size = bounds_.size().maxCoeff();
+        for (const Foam::label face : faces) {
+            const Vector3 normal = toEigen(mesh_.faceAreas()[face]);
+            planes_.push_back({normal, normal.dot(toEigen(mesh_.faceCentres()[face])), wellApart * size * normal.norm(),
+                               mesh_.faceOwner()[face] == cell});
+        }
+    }
+    planeStart_.push_back(planes_.size());
 }
 
 Eigen::Array3i cellLocator::binOf(const Vector3& point) const
@@ -102,37 +128,51 @@ std::size_t cellLocator::binIndex(int i, int j, int k) const
            + static_cast<std::size_t>(k);
 }
 
-bool cellLocator::insideFacePlanes(const Foam::point& point, Foam::label cell) const
+std::size_t cellLocator::binAt(const Vector3& point) const
 {
-    for (const Foam::label face : mesh_.cells()[cell]) {
-        // The same product for both cells of a face, so that a point near it is inside at least one of them.
-        const double outwards = (point - mesh_.faceCentres()[face]) & mesh_.faceAreas()[face];
-        const bool outside = mesh_.faceOwner()[face] == cell ? outwards > 0 : outwards < 0;
-        if (outside) {
+    const Eigen::Array3i bin = binOf(point);
+    return binIndex(bin.x(), bin.y(), bin.z());
+}
+
+bool cellLocator::insideFacePlanes(const Vector3& point, Foam::label cell) const
+{
+    const auto c = static_cast<std::size_t>(cell);
+    for (std::size_t n = planeStart_[c]; n < planeStart_[c + 1]; ++n) {
+        const Plane& plane = planes_[n];
+        // The same number for both cells of a face, so that a point near it is inside at least one of them.
+        const double along = plane.normal.dot(point) - plane.offset;
+        if (plane.outwards ? along > 0 : along < 0) {
             return false;
         }
     }
     return true;
 }
 
-Foam::label cellLocator::find(const Vector3& point) const
+bool cellLocator::wellInside(const Vector3& point, Foam::label cell) const
 {
-    if (!bounds_.contains(point) || binCells_.empty()) {
-        return -1;
+    const auto c = static_cast<std::size_t>(cell);
+    bool inside = true;
+    for (std::size_t n = planeStart_[c]; n < planeStart_[c + 1]; ++n) {
+        const Plane& plane = planes_[n];
+        const double along = plane.normal.dot(point) - plane.offset;
+        inside = inside && (plane.outwards ? along : -along) < -plane.margin;
     }
-    const Eigen::Array3i bin = binOf(point);
-    const std::size_t index = binIndex(bin.x(), bin.y(), bin.z());
-    const auto begin = binCells_.begin() + static_cast<long>(binStart_[index]);
-    const auto end = binCells_.begin() + static_cast<long>(binStart_[index + 1]);
+    return inside;
+}
+
+Foam::label cellLocator::search(const Vector3& point, std::size_t bin) const
+{
+    const auto begin = binCells_.begin() + static_cast<long>(binStart_[bin]);
+    const auto end = binCells_.begin() + static_cast<long>(binStart_[bin + 1]);
     const Foam::point position = toFoam(point);
 
     const auto holds = [&](Foam::label cell) {
-        if (!cellBox_[static_cast<std::size_t>(cell)].contains(point)) {
+        const auto c = static_cast<std::size_t>(cell);
+        if (!cellBox_[c].contains(point)) {
             return false;
         }
-        return planeFaced_[static_cast<std::size_t>(cell)]
-                   ? insideFacePlanes(position, cell)
-                   : mesh_.pointInCell(position, cell, Foam::polyMesh::CELL_TETS);
+        return planeStart_[c] < planeStart_[c + 1] ? insideFacePlanes(point, cell)
+                                                   : mesh_.pointInCell(position, cell, Foam::polyMesh::CELL_TETS);
     };
     const auto nearlyHolds = [&](Foam::label cell) {
         return cellBox_[static_cast<std::size_t>(cell)].contains(point)
@@ -143,6 +183,16 @@ Foam::label cellLocator::find(const Vector3& point) const
         found = std::find_if(begin, end, nearlyHolds);
     }
     return found == end ? -1 : *found;
+}
+
+Foam::label cellLocator::find(const Vector3& point) const
+{
+    if (!bounds_.contains(point) || binCells_.empty()) {
+        return -1;
+    }
+    const std::size_t bin = binAt(point);
+    const Foam::label middle = middleCell_[bin];
+    return middle >= 0 && wellInside(point, middle) ? middle : search(point, bin);
 }
 
 }  // namespace him

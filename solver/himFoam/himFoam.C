@@ -75,12 +75,13 @@ void run(scene& s, MPI_Comm communicator)
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     chargeTable charge(runTime, s.dem->walls());
-    fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->periodic(),
-                               communicator);
+    fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
+                               s.dem->periodic(), communicator);
     runReport report(runTime, times, s.settings.logInterval);
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     step.start();
+    printOwnCellField(*method, step.particles());
     charge.write(runTime.value(), step.summary(), step.books());
     fieldError.update(step);
     const double deltaT = runTime.deltaTValue();

@@ -52,6 +52,7 @@ void openDem(scene& s, MPI_Comm communicator)
     checkWalls(s.settings, *s.dem, complaints);
     checkDimensions(s.settings, *s.dem, complaints);
     findImageWalls(s.settings, *s.dem, complaints);
+    choosePairSum(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
     if (s.poisson) {
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
     }

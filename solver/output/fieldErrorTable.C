@@ -3,17 +3,19 @@
 
 #include "settings/checkedDictionary.H"
 
+#include "dem_coupling/field_error/strict_p3m.hpp"
+
 #include "OSspecific.H"
 #include "Pstream.H"
 
 namespace him {
 
 fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSettings& errorSettings,
-                                 const FieldSettings& settings, const PoissonMesh* mesh,
+                                 const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
                                  const std::array<bool, 3>& periodic, MPI_Comm communicator)
     : runTime_(runTime),
       monitor_(errorSettings,
-               errorSettings.active ? FieldReference::find(settings, mesh, periodic, communicator) : nullptr,
+               errorSettings.active ? FieldReference::find(settings, mesh, demBox, periodic, communicator) : nullptr,
                settings.externalField, communicator),
       method_(settings.method),
       accuracy_(settings.accuracy),
@@ -24,7 +26,8 @@ fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSett
     }
     if (monitor_.reference().empty()) {
         Foam::Info << "Field error: n/a, there is no exact reference for " << settings.method.c_str()
-                   << " here (a rectangular box of grounded, insulated or periodic sides has one)" << Foam::endl;
+                   << " here (a rectangular box of grounded, insulated or periodic sides has one; on a mesh of at most "
+                   << Foam::label(StrictP3mReference::mostCells) << " cells a stricter p3m serves)" << Foam::endl;
         return;
     }
     Foam::Info << "Field error: measured against " << monitor_.reference().c_str() << Foam::endl;
@@ -63,8 +66,8 @@ void fieldErrorTable::report(const FieldError& error)
                << " of the rms field, " << error.sample << " particles, " << shown(error.seconds, 2).c_str() << " s"
                << Foam::endl;
     if (accuracy_ > 0 && error.rms > accuracy_) {
-        Foam::Info << "WARNING: constant/electrostaticProperties asks for accuracy " << accuracy_ << " and the field has "
-                   << shown(error.rms, 3).c_str() << ". "
+        Foam::Info << "WARNING: constant/electrostaticProperties asks for accuracy " << accuracy_
+                   << " and the field has " << shown(error.rms, 3).c_str() << ". "
                    << (method_ == "p3m" ? "Ask for a smaller accuracy, raise p3mCoeffs.cloudCells, or refine the mesh."
                                         : "Set fieldMethod to p3m, or leave it out, so that accuracy chooses.")
                    << Foam::endl;

@@ -82,6 +82,9 @@ std::string accuracyText(const FieldSettings& field)
     if (std::isnan(expected)) {
         text << "WARNING: nothing is known of the error of these settings. Leave out fieldMethod and the entries of "
                 "p3mCoeffs to let accuracy choose.";
+    } else if (field.method == "pairwiseSum") {
+        text << "pairwiseSum with images is the cheapest for so few particles, "
+             << (expected > 0 ? "expected at most " + shown(expected) : std::string("exact here")) << '.';
     } else {
         text << "expected at most " << expected << " between plane walls, about " << std::max(expected, curvedWallError)
              << " between curved ones.";
@@ -124,6 +127,28 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
         Info << "The DEM script ran steps of its own before the hand-over: with field and charging off.\n";
     }
     Info << Foam::endl;
+}
+
+void printOwnCellField(FieldMethod& method, const DemParticles& particles)
+{
+    const std::optional<OwnCellField> own = method.ownCellField(particles);
+    if (!own) {
+        return;
+    }
+    constexpr double warnAbove = 0.05;
+    Foam::Info << "Self-field of particles in their own cells, away from walls: ";
+    if (own->tag == 0) {
+        Foam::Info << "none, the cells are uniform" << Foam::endl;
+        return;
+    }
+    Foam::Info << "up to " << shown(own->share, 3).c_str() << " of the field at the surface (particle " << own->tag
+               << ", a sample of the most uneven cells)" << Foam::endl;
+    if (own->share > warnAbove) {
+        Foam::Info
+            << "WARNING: him makes a field of a particle's own charge, because cells grow from one to the next. Write "
+               "ownCellResponse remove; in himCoeffs, use uniform cells, or fieldMethod p3m."
+            << Foam::endl;
+    }
 }
 
 }  // namespace him

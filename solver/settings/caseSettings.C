@@ -29,8 +29,13 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
     settings.field = choices.selected;
     settings.fieldError = choices.fieldError;
     settings.dielectrics = choices.dielectrics;
-    settings.needsMesh = settings.field.method.empty() ? hasElectricMesh(casePath)
-                                                       : FieldMethod::needsMesh(settings.field.method);
+    settings.methodByAccuracy = choices.methodByAccuracy;
+    if (settings.methodByAccuracy && !hasElectricMesh(casePath)) {
+        settings.field.method = "pairwiseSum";
+        settings.field.pairwiseSum.images = true;
+    }
+    settings.needsMesh =
+        settings.field.method.empty() ? hasElectricMesh(casePath) : FieldMethod::needsMesh(settings.field.method);
 
     checkedDictionary properties(casePath, "constant/couplingProperties", complaints);
     const std::string script = properties.text("demScript");

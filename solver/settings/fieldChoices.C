@@ -109,6 +109,7 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
 
     fieldChoices choices;
     choices.selected = common;
+    choices.methodByAccuracy = accuracy > 0 && !properties.has("fieldMethod");
     choices.fieldError = readFieldError(properties);
     choices.dielectrics = readDielectricChoices(properties, gas);
     for (const std::string& method : FieldMethod::names()) {

@@ -50,6 +50,38 @@ TEST(AccuracyChoice, refusesWhatNoSettingReaches)
     EXPECT_THROW(chooseForAccuracy(std::nan("")), std::invalid_argument);
 }
 
+TEST(AccuracyChoice, takesThePairSumForFewParticlesOnly)
+{
+    EXPECT_TRUE(pairSumIsCheaper(13, 1920));
+    EXPECT_FALSE(pairSumIsCheaper(10000, 74088));
+    // More cells favour the pair sum, more particles the mesh.
+    EXPECT_FALSE(pairSumIsCheaper(500, 1000));
+    EXPECT_TRUE(pairSumIsCheaper(500, 1000000));
+}
+
+TEST(AccuracyChoice, knowsWhereThePairSumIsExact)
+{
+    Box box;
+    box.lower = Vector3::Zero();
+    box.upper = Vector3(1, 2, 3);
+    FieldSettings settings;
+    settings.method = "pairwiseSum";
+    EXPECT_EQ(expectedError(settings), 0);
+    settings.pairwiseSum.images = true;
+    settings.pairwiseSum.imageWalls = wallsOf(box);
+    ASSERT_EQ(settings.pairwiseSum.imageWalls.size(), 6U);
+    EXPECT_EQ(expectedError(settings), errorBetweenParallelWalls);
+    // A corner of three planes has all its images.
+    auto& walls = settings.pairwiseSum.imageWalls;
+    walls = {walls[0], walls[2], walls[4]};
+    EXPECT_EQ(expectedError(settings), 0);
+    walls[0].shape = ImageWall::Shape::cylinder;
+    EXPECT_TRUE(std::isnan(expectedError(settings)));
+    settings.pairwiseSum = {};
+    settings.pairwiseSum.truncation = 0.1;
+    EXPECT_TRUE(std::isnan(expectedError(settings)));
+}
+
 TEST(AccuracyChoice, expectsTheErrorOfTheWeakestPart)
 {
     P3mSettings large = chooseForAccuracy(0.005).p3m;

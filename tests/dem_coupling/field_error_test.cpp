@@ -52,7 +52,7 @@ struct Scene24 {
     FieldErrorMonitor monitor(const FieldSettings& settings, FieldErrorSettings errorSettings = {})
     {
         const bool onMesh = FieldMethod::needsMesh(settings.method);
-        return {errorSettings, FieldReference::find(settings, onMesh ? &mesh : nullptr, open, world),
+        return {errorSettings, FieldReference::find(settings, onMesh ? &mesh : nullptr, packing.box, open, world),
                 settings.externalField, world};
     }
     /// Exact field of this rank's particles, external field included.

@@ -36,33 +36,73 @@ class Accuracy(unittest.TestCase):
         return [value for _, one in sorted(case.particles("0.001").items()) for value in one["electricField"]]
 
     def test_the_choice_is_the_same_as_its_entries_written_out(self):
-        chosen, text = self.run_with("accuracy 0.02;")
+        chosen, text = self.run_with("accuracy 0.014;")
         self.assertIn("Field method p3m, clouds of 3 cells, quartic gather, deferred correction", text)
-        self.assertIn("Accuracy 0.02 asked for (relative RMS field error): expected at most 0.012 between plane walls", text)
+        self.assertIn("Accuracy 0.014 asked for (relative RMS field error): expected at most 0.012 between plane walls", text)
         self.assertNotIn("WARNING: the entries", text)
         written, text = self.run_with(
             "fieldMethod p3m; p3mCoeffs { cloudCells 3; gather quartic; deferredCorrection yes; }")
         self.assertNotIn("Accuracy", text)
         self.assertEqual(self.fields(chosen), self.fields(written))
-        coarse, _ = self.run_with("accuracy 0.1;")
+        coarse, _ = self.run_with("fieldMethod p3m; accuracy 0.1;")
         self.assertNotEqual(self.fields(chosen), self.fields(coarse))
 
     def test_two_ranks_choose_and_get_the_same(self):
-        serial = self.fields(self.run_with("accuracy 0.02;")[0])
-        parallel = self.fields(self.run_with("accuracy 0.02;", ranks=2)[0])
+        serial = self.fields(self.run_with("accuracy 0.014;")[0])
+        parallel = self.fields(self.run_with("accuracy 0.014;", ranks=2)[0])
         largest = max(map(abs, serial))
         self.assertEqual(len(serial), len(parallel))
         for one, other in zip(serial, parallel):
             self.assertAlmostEqual(one, other, delta=1e-6 * largest)
 
+    def test_few_particles_in_a_grounded_box_get_the_pair_sum_with_images(self):
+        case, text = self.run_with("accuracy 0.02; fieldError { interval 1; }")
+        self.assertIn("Field method pairwiseSum", text)
+        self.assertIn("expected at most 0.015", text)
+        rows = (case.path / "postProcessing/fieldError/0/fieldError.dat").read_text().splitlines()
+        errors = [float(row.split()[2]) for row in rows if not row.startswith("#")]
+        self.assertEqual(len(errors), 3)
+        self.assertLess(max(errors), 0.015)
+        strict, _ = self.run_with("accuracy 0.0012;")
+        fields, exact = self.fields(case), self.fields(strict)
+        largest = max(map(abs, exact))
+        self.assertNotEqual(fields, exact)
+        for one, other in zip(fields, exact):
+            self.assertAlmostEqual(one, other, delta=0.02 * largest)
+
+    def test_sides_that_are_not_grounded_keep_the_mesh(self):
+        Accuracy.count += 1
+        case = TinyCase.copy(self.original.path, "%s/case%d" % (self.folder.name, self.count))
+        case.replace(ELECTROSTATIC, "fieldMethod him;", "accuracy 0.02;")
+        case.replace("0/electricPotential", "top { type fixedValue; value uniform 0; }", "top { type fixedValue; value uniform 5; }")
+        result = case.run("-dry-run")
+        self.assertEqual(result.code, 0, result.text)
+        self.assertIn("Field method p3m", result.text)
+
+    def test_without_a_mesh_one_plane_is_exact_and_a_cylinder_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder, "pairwiseSum")
+            case.replace(ELECTROSTATIC, "fieldMethod pairwiseSum;", "accuracy 0.001;")
+            text = case.run("-dry-run").text
+            self.assertIn("accuracy: found 0.001, the smallest", text)
+            case.replace(ELECTROSTATIC, "accuracy 0.001;", "accuracy 0.01;")
+            result = case.run("-dry-run")
+            self.assertEqual(result.code, 0, result.text)
+            self.assertIn("Field method pairwiseSum", result.text)
+            self.assertIn("exact here", result.text)
+            case.replace("constant/couplingProperties", "lid noTransfer;", "lid grounded;")
+            result = case.run("-dry-run")
+            self.assertEqual(result.code, 1, result.text)
+            self.assertIn("its error here is up to 0.015 (parallel walls)", " ".join(result.text.split()))
+
     def test_entries_of_the_method_win_and_are_warned_of(self):
-        _, text = self.run_with("accuracy 0.02; p3mCoeffs { gather cubic; }", "-dry-run")
+        _, text = self.run_with("accuracy 0.014; p3mCoeffs { gather cubic; }", "-dry-run")
         self.assertIn("clouds of 3 cells, cubic gather, deferred correction", text)
         self.assertIn("expected at most 0.055", text)
         self.assertIn("WARNING: the entries of p3mCoeffs win over accuracy", text)
 
     def test_another_method_wins_and_is_warned_of(self):
-        _, text = self.run_with("accuracy 0.02; fieldMethod him;", "-dry-run")
+        _, text = self.run_with("accuracy 0.014; fieldMethod him;", "-dry-run")
         self.assertIn("Field method him", text)
         self.assertIn("WARNING: nothing is known of the error of these settings. Leave out fieldMethod", text)
 

@@ -75,6 +75,48 @@ class FieldErrorOfARun(unittest.TestCase):
         self.assertLess(rows[0]["rms"], 0.9)
         self.assertNotIn("asks for accuracy", met.text)
 
+    def run_at_voltage(self, method, entry, interval):
+        """A box with a side at 5 V, which has no exact reference: log, table, particles by tag."""
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder, method)
+            case.replace(ELECTROSTATIC, "relativePermittivity 1;", "relativePermittivity 1; " + entry + interval)
+            case.replace("0/electricPotential", "top { type fixedValue; value uniform 0; }",
+                         "top { type fixedValue; value uniform 5; }")
+            case.replace("system/controlDict", "writeInterval 2;", "writeInterval 1;")
+            result = case.run()
+            self.assertEqual(result.code, 0, result.text)
+            return result.text, table(case), case.particles("0.002")
+
+    def test_elsewhere_is_measured_against_a_stricter_p3m_that_leaves_no_trace(self):
+        for method, entry, worst in (("him", "", 0.6), ("p3m", "p3mCoeffs { cloudCells 2; }", 0.1)):
+            text, rows, with_error = self.run_at_voltage(method, entry, "fieldError { interval 1; }")
+            self.assertIn("measured against p3m with clouds of 3 cells", text)
+            self.assertEqual(len(rows), 3)
+            for row in rows:
+                self.assertGreater(row["rms"], 1e-4)
+                self.assertLess(row["rms"], worst)
+            _, none, without = self.run_at_voltage(method, entry, "fieldError { active no; }")
+            self.assertEqual(none, [])
+            self.assertEqual(with_error, without)
+
+    def test_of_images_between_planes_of_a_closed_box_is_known_without_a_mesh(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder, "pairwiseSum")
+            case.replace(ELECTROSTATIC, "relativePermittivity 1;",
+                         "relativePermittivity 1; pairwiseSumCoeffs { images yes; } fieldError { interval 1; }")
+            walls = "".join("fix w%s all wall/gran model hertz tangential history cohesion charge primitive type 2 %splane %s\n"
+                            % (n, axis, at) for n, (axis, at) in enumerate([("x", "0.0"), ("x", "0.1"), ("y", "0.0"), ("y", "0.1")]))
+            case.replace("DEM/in.cube", "fix tribo", walls + "fix tribo")
+            case.replace("constant/couplingProperties", "lid noTransfer;",
+                         "lid grounded; w0 grounded; w1 grounded; w2 grounded; w3 grounded;")
+            result = case.run()
+            self.assertEqual(result.code, 0, result.text)
+            self.assertIn("measured against the exact field in the box", result.text)
+            rows = table(case)
+            self.assertEqual(len(rows), 3)
+            self.assertGreater(rows[0]["rms"], 1e-7)
+            self.assertLess(rows[0]["rms"], 0.015)
+
     def test_says_where_nothing_exact_is_known(self):
         result, rows = self.run_case("pairwiseSum")
         self.assertEqual(result.code, 0, result.text)

@@ -18,7 +18,7 @@ def after_one_update(method, ranks):
         result = case.run(ranks=ranks)
         if result.code != 0:
             raise RuntimeError(result.text)
-        particles = case.particles("0.001") if method == "him" else {}
+        particles = case.particles("0.001") if method in ("him", "p3m") else {}
         return particles, case.charge_table()[1][-1]
 
 
@@ -42,6 +42,9 @@ class SameOnAnyNumberOfRanks(unittest.TestCase):
 
     def test_him_to_the_tolerance_of_the_potential(self):
         self.compare("him", 1e-9)
+
+    def test_p3m_to_the_tolerance_of_the_potential(self):
+        self.compare("p3m", 1e-9)
 
 
 if __name__ == "__main__":

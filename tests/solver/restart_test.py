@@ -63,6 +63,9 @@ class Restart(unittest.TestCase):
     def test_him_continues_bit_for_bit(self):
         self.compare("him")
 
+    def test_p3m_continues_bit_for_bit(self):
+        self.compare("p3m")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
