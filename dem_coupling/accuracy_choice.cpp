@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/accuracy_choice.hpp"
 
+#include "dem_coupling/field_error/box_of_mesh.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,6 +74,17 @@ std::vector<ImageWall> wallsOf(const Box& box)
         }
     }
     return walls;
+}
+
+std::optional<Box> groundedBox(const PoissonMesh& mesh, const std::array<bool, 3>& periodic, MPI_Comm communicator)
+{
+    const auto space = boxOfMesh(mesh, periodic, communicator);
+    const auto grounded = [](BoxSide side) { return side == BoxSide::grounded; };
+    if (space && std::all_of(space->sides.lower.begin(), space->sides.lower.end(), grounded)
+        && std::all_of(space->sides.upper.begin(), space->sides.upper.end(), grounded)) {
+        return space->box;
+    }
+    return std::nullopt;
 }
 
 namespace {

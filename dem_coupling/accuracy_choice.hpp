@@ -2,6 +2,11 @@
 #pragma once
 
 #include "dem_coupling/field_settings.hpp"
+#include "dem_coupling/poisson_mesh.hpp"
+
+#include <array>
+#include <mpi.h>
+#include <optional>
 
 namespace him {
 
@@ -29,6 +34,10 @@ constexpr double errorBetweenParallelWalls = 0.015;
 /// Whether all pairs with the first images of a box cost less time than p3m solved directly in it. From the times per pair, per
 /// particle and per cell of cases/speedAgainstError.
 bool pairSumIsCheaper(Index particles, Index cells);
+
+/// The box of a mesh whose six sides are grounded conductors, which is all that the pair sum's images serve; nothing for any
+/// other mesh. Collective.
+std::optional<Box> groundedBox(const PoissonMesh& mesh, const std::array<bool, 3>& periodic, MPI_Comm communicator);
 
 /// The six sides of a box as walls to mirror at.
 std::vector<ImageWall> wallsOf(const Box& box);

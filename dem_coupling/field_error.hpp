@@ -25,6 +25,10 @@ struct FieldError {
     double seconds = 0;       ///< that the measurement took, slowest rank
 };
 
+/// A stricter p3m serves as reference on meshes of at most so many cells: its quartic stencils take about 10 kB for a cell and as
+/// long to make as some hundred fields.
+constexpr Index mostCellsOfReference = 50000;
+
 /// Field of all charges and of the walls, as exact as the scene allows.
 class FieldReference {
 public:

@@ -44,7 +44,8 @@ bool StrictP3mReference::serves(const FieldSettings& settings, const PoissonMesh
 {
     std::int64_t cells = mesh.cellCount();
     MPI_Allreduce(MPI_IN_PLACE, &cells, 1, MPI_INT64_T, MPI_SUM, communicator);
-    return cells <= mostCells && FieldMethod::check(strictSettings(settings), &mesh, demBox, periodic).none();
+    return cells <= mostCellsOfReference
+           && FieldMethod::check(strictSettings(settings), &mesh, demBox, periodic).none();
 }
 
 void StrictP3mReference::addField(const DemParticles& particles, const Points& targets,

@@ -16,8 +16,6 @@ public:
     /// Whether there is one: the mesh has few enough cells, and p3m accepts it. Collective.
     static bool serves(const FieldSettings& settings, const PoissonMesh& mesh, const Box& demBox,
                        const std::array<bool, 3>& periodic, MPI_Comm communicator);
-    /// Quartic stencils take about 10 kB for a cell and as long to make as some hundred fields.
-    static constexpr Index mostCells = 50000;
 
     void addField(const DemParticles& particles, const Points& targets, const std::vector<Index>& ownRow,
                   Points& field) const override;

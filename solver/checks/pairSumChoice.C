@@ -3,21 +3,12 @@
 #include "settings/checkedDictionary.H"
 
 #include "dem_coupling/accuracy_choice.hpp"
-#include "dem_coupling/field_error/box_of_mesh.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace him {
 
 namespace {
-
-bool allGrounded(const BoxSides& sides)
-{
-    const auto grounded = [](BoxSide side) { return side == BoxSide::grounded; };
-    return std::all_of(sides.lower.begin(), sides.lower.end(), grounded)
-           && std::all_of(sides.upper.begin(), sides.upper.end(), grounded);
-}
 
 /// Particles of all ranks. Collective.
 Index countOf(const DemPort& dem, MPI_Comm communicator)
@@ -62,12 +53,11 @@ void choosePairSum(caseSettings& settings, const DemPort& dem, const foamPoisson
         || !pairSumIsCheaper(particles, cells)) {
         return;
     }
-    const auto space = boxOfMesh(*mesh, dem.periodic(), communicator);
-    if (space && allGrounded(space->sides)) {
+    if (const auto box = groundedBox(*mesh, dem.periodic(), communicator)) {
         field.method = "pairwiseSum";
         field.pairwiseSum = {};
         field.pairwiseSum.images = true;
-        field.pairwiseSum.imageWalls = wallsOf(space->box);
+        field.pairwiseSum.imageWalls = wallsOf(*box);
     }
 }
 

@@ -3,8 +3,6 @@
 
 #include "settings/checkedDictionary.H"
 
-#include "dem_coupling/field_error/strict_p3m.hpp"
-
 #include "OSspecific.H"
 #include "Pstream.H"
 
@@ -27,7 +25,7 @@ fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSett
     if (monitor_.reference().empty()) {
         Foam::Info << "Field error: n/a, there is no exact reference for " << settings.method.c_str()
                    << " here (a rectangular box of grounded, insulated or periodic sides has one; on a mesh of at most "
-                   << Foam::label(StrictP3mReference::mostCells) << " cells a stricter p3m serves)" << Foam::endl;
+                   << Foam::label(mostCellsOfReference) << " cells a stricter p3m serves)" << Foam::endl;
         return;
     }
     Foam::Info << "Field error: measured against " << monitor_.reference().c_str() << Foam::endl;

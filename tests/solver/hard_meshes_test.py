@@ -62,7 +62,7 @@ class HardMeshes(unittest.TestCase):
             result = case.run("-particles", "in.csv", "-compare", "-methods", "(p3mCubic p3mQuartic)", program="himField")
             self.assertEqual(result.code, 0, result.text)
             with open(case.path / "postProcessing/himField/compare.csv", newline="") as file:
-                return {row["method"]: float(row["rmsError"]) for row in csv.DictReader(file)}, angle
+                return {row["name"]: float(row["rms_error"]) for row in csv.DictReader(file)}, angle
 
     @classmethod
     def setUpClass(cls):
