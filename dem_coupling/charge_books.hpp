@@ -22,6 +22,8 @@ public:
     /// closureError() relative to the largest sum of absolute charges (particles and everything moved) so far; 0 when
     /// no charge was ever there.
     double relativeClosureError() const;
+    /// Largest sum of absolute charges so far [C].
+    double scale() const { return scale_; }
     /// Above this relative error the run stops.
     static constexpr double tolerance = 1e-9;
 

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace him {
@@ -38,17 +40,50 @@ void CoupledStep::advance(long demSteps)
 void CoupledStep::updateField()
 {
     readParticles();
+    bringWallCharges();
     method_.compute(particles_, field_);
     summarise();
     if (!booksOpen_) {
         books_.open(summary_.totalCharge, absoluteCharge_, dem_.movements());
+        wallFaceOpening_ = walls_ ? wallFaceCharge_ - givenToKeepingWalls() : 0;
         booksOpen_ = true;
     } else {
         books_.post(summary_.totalCharge, absoluteCharge_, dem_.movements());
         stopOnOpenBooks(books_);
+        if (walls_ && std::fabs(wallFaceError()) > ChargeBooks::tolerance * books_.scale()) {
+            throw std::runtime_error("the charge on the faces of insulating walls is not what contacts left there: off by "
+                                     + std::to_string(wallFaceError() / books_.scale()) + " of all charge");
+        }
     }
     const PhaseTimer timer(times_, Phase::dem);
     dem_.setField(particles_, field_.field, field_.ownResponse);
+}
+
+void CoupledStep::bringWallCharges()
+{
+    if (walls_) {
+        dem_.takeWallCharges(wallCharges_);
+        const PhaseTimer timer(times_, Phase::exchange);
+        walls_->add(wallCharges_);
+        wallFaceCharge_ = walls_->total();
+    }
+}
+
+double CoupledStep::givenToKeepingWalls() const
+{
+    CompensatedSum given;
+    const std::vector<double>& toWall = books_.movements().toWall;
+    for (std::size_t wall = 0; wall < toWall.size(); ++wall) {
+        if (walls_->keeps(wall)) {
+            given += toWall[wall];
+        }
+    }
+    return given.value();
+}
+
+double CoupledStep::wallFaceError() const
+{
+    return walls_ ? wallFaceCharge_ - wallFaceOpening_ - givenToKeepingWalls() : 0;
 }
 
 void CoupledStep::readParticles()

@@ -5,6 +5,7 @@
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/field_method.hpp"
 #include "dem_coupling/phase_times.hpp"
+#include "dem_coupling/wall_charge_port.hpp"
 
 #include <mpi.h>
 
@@ -29,6 +30,9 @@ class CoupledStep {
 public:
     CoupledStep(DemPort& dem, FieldMethod& field, MPI_Comm communicator, PhaseTimes& times);
 
+    /// Where insulating walls keep their charge; before start(), outlives this.
+    void setWallCharges(WallChargePort* walls) { walls_ = walls; }
+
     /// Tells the DEM the method's partner cutoff, computes the field of the first step, opens the books and hands over.
     /// Call once. Throws like advance().
     void start();
@@ -40,10 +44,17 @@ public:
     const ParticleField& field() const { return field_; }
     const StepSummary& summary() const { return summary_; }
     const ChargeBooks& books() const { return books_; }
+    bool hasInsulatingWalls() const { return walls_ != nullptr; }
+    /// Charge on the faces of insulating walls [C], all ranks.
+    double wallFaceCharge() const { return wallFaceCharge_; }
+    /// What the faces hold beyond what the books say that their walls were given since the start [C].
+    double wallFaceError() const;
 
 private:
     void readParticles();
     void updateField();
+    void bringWallCharges();
+    double givenToKeepingWalls() const;
     void summarise();
 
     DemPort& dem_;
@@ -55,6 +66,10 @@ private:
     ParticleField field_;
     StepSummary summary_;
     ChargeBooks books_;
+    WallChargePort* walls_ = nullptr;
+    std::vector<WallCharge> wallCharges_;
+    double wallFaceCharge_ = 0;   ///< [C]
+    double wallFaceOpening_ = 0;  ///< on the faces beyond what their walls were given when the books were opened [C]
     double absoluteCharge_ = 0;
     bool booksOpen_ = false;
 };

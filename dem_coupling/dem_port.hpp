@@ -41,6 +41,14 @@ struct DemWall {
 struct WallRole {
     std::string name;  ///< DemWall::name
     bool transfersCharge = true;
+    bool keepsCharge = false;  ///< an insulating wall: what its contacts leave is handed over, see takeWallCharges
+};
+
+/// What contacts at one place left on an insulating wall.
+struct WallCharge {
+    Vector3 point;      ///< contact point [m]
+    int wall = 0;       ///< row of DemPort::walls()
+    double charge = 0;  ///< that the wall gained [C]
 };
 
 /// Which field of the others drives charging at a wall.
@@ -81,6 +89,12 @@ public:
     virtual std::string chargingDescription() const = 0;  ///< the pair table for the log, several lines
     /// What in the scene can not be simulated (missing Gamma for a type pair, coarse graining, wrong units, ...).
     virtual Complaints check() const = 0;
+    /// Corners [m] of this rank's facets of a mesh wall; empty for a primitive one. Not collective.
+    virtual std::vector<Vector3> wallPoints(std::size_t wall) const
+    {
+        static_cast<void>(wall);
+        return {};
+    }
     virtual bool ranBeforeHandOver() const = 0;  ///< the script contained `run`
 
     // --- settings, before the first run()
@@ -111,6 +125,8 @@ public:
     // --- the books
     virtual ChargeMovements movements() const = 0;
     virtual ContactCounts contacts() const = 0;
+    /// Charges that this rank's contacts left on walls that keep them, since the last call; then forgets them. Not collective.
+    virtual void takeWallCharges(std::vector<WallCharge>& out) { out.clear(); }
     /// Writes a restart file. The next run() computes all forces anew, as a run from that file does, so that both go on
     /// bit for bit alike.
     virtual void writeCheckpoint(const std::string& file) = 0;

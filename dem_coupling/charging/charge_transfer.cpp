@@ -33,10 +33,12 @@ void ChargeTransfer::setPermittivity(double permittivity)
     pairs_.resolve(permittivity);
 }
 
-void ChargeTransfer::setWalls(std::vector<int> types, std::vector<char> transfers)
+void ChargeTransfer::setWalls(std::vector<int> types, std::vector<char> transfers, std::vector<char> keeps)
 {
     wallTypes_ = std::move(types);
     wallTransfers_ = std::move(transfers);
+    wallKeeps_ = std::move(keeps);
+    wallKeeps_.resize(wallTypes_.size(), 0);
     toWall_.resize(wallTypes_.size());
 }
 
@@ -120,6 +122,7 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
                           const std::vector<GrowingWallContact>& wallContacts)
 {
     gained_.assign(rows.local, 0.0);
+    wallGains_.clear();
     for (const GrowingPair& contact : pairs) {
         const bool ordered = rows.tag[contact.first] < rows.tag[contact.second];
         const int a = ordered ? contact.first : contact.second;
@@ -187,6 +190,9 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         }
         gained_[i] += gained;
         toWall_[contact.wall] += -gained;
+        if (wallKeeps_[contact.wall]) {
+            wallGains_.push_back({i, contact.wall, {contact.normal[0], contact.normal[1], contact.normal[2]}, -gained});
+        }
         largestRelaxation_ = std::max(largestRelaxation_, relaxationSums_[i]);
     }
     // What rounding keeps from a particle stays with the wall. Close to saturation every step would lose a gain below the last
@@ -197,6 +203,12 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
     for (const GrowingWallContact& contact : wallContacts) {
         if (wallTransfers_[contact.wall] && pairs_.of(rows.type[contact.particle], wallTypes_[contact.wall]).transfers) {
             toWall_[contact.wall] += gained_[contact.particle];
+            if (wallKeeps_[contact.wall] && gained_[contact.particle] != 0) {
+                wallGains_.push_back({contact.particle,
+                                      contact.wall,
+                                      {contact.normal[0], contact.normal[1], contact.normal[2]},
+                                      gained_[contact.particle]});
+            }
             gained_[contact.particle] = 0;
         }
     }

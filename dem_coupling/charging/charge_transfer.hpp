@@ -49,7 +49,8 @@ public:
     void setOwnImage(bool included) { ownFieldFactor_ = included ? 2 : 1; }
     void setPartnerCutoff(double cutoff) { partnerCutoff_ = cutoff; }
     /// One entry per wall.
-    void setWalls(std::vector<int> types, std::vector<char> transfers);
+    /// @param keeps  whether wallGains() lists the charges of this wall
+    void setWalls(std::vector<int> types, std::vector<char> transfers, std::vector<char> keeps = {});
     /// Shortest vector between two positions in a periodic box, in place; null for an open box.
     void setMinimumImage(void (*shorten)(void* box, double* vector), void* box)
     {
@@ -82,6 +83,15 @@ public:
     double& strongFrozenContacts() { return strongFrozen_; }
     double strongFrozenContacts() const { return strongFrozen_; }
 
+    /// What the walls that keep their charge gained in the last move().
+    struct WallGain {
+        int particle;
+        int wall;
+        double normal[3];  ///< from the particle into the wall
+        double charge;     ///< [C]
+    };
+    const std::vector<WallGain>& wallGains() const { return wallGains_; }
+
 private:
     double limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const;
     /// x [-] of a contact of that particle, see relaxationNumber().
@@ -101,6 +111,8 @@ private:
     void* box_ = nullptr;
     std::vector<int> wallTypes_;
     std::vector<char> wallTransfers_;
+    std::vector<char> wallKeeps_;
+    std::vector<WallGain> wallGains_;
     std::vector<double> inverseSurface_;  ///< 1/(4 pi r^2) per row [m-2]
     std::vector<double> relaxationSums_;
     std::vector<double> gained_;

@@ -141,13 +141,14 @@ void FixChargeGranContact::refreshWalls()
     std::vector<ListedWall> now = listWalls(lmp);
     std::vector<CompensatedSum> given(now.size());
     std::vector<int> types;
-    std::vector<char> transfers;
+    std::vector<char> transfers, keeps;
     for (std::size_t row = 0; row < now.size(); ++row) {
         const DemWall& wall = now[row].wall;
         types.push_back(wall.type);
         const auto role =
             std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == wall.name; });
         transfers.push_back(role == roles_.end() || role->transfersCharge);
+        keeps.push_back(role != roles_.end() && role->keepsCharge);
         for (std::size_t old = 0; old < walls_.size(); ++old) {
             if (walls_[old].wall.name == wall.name) {
                 given[row] = transfer_.toWall()[old];
@@ -160,7 +161,7 @@ void FixChargeGranContact::refreshWalls()
         restartedToWall_.clear();
     }
     walls_ = std::move(now);
-    transfer_.setWalls(std::move(types), std::move(transfers));
+    transfer_.setWalls(std::move(types), std::move(transfers), std::move(keeps));
     transfer_.toWall() = std::move(given);
     size_vector = 1 + static_cast<int>(walls_.size()) + 4;
 }
@@ -330,6 +331,7 @@ void FixChargeGranContact::end_of_step()
             comm->forward_comm_fix(this);
         }
         transfer_.move(rows, recorder_.pairs, growingWallContacts_);
+        keepWallCharges();
         if (losses_.active()) {
             loseCharge();
         }
@@ -355,6 +357,23 @@ void FixChargeGranContact::post_run()
         text << "Breakdown limited the charge of particles " << counts.breakdowns << " times\n";
     }
     tell(text.str());
+}
+
+void FixChargeGranContact::keepWallCharges()
+{
+    for (const ChargeTransfer::WallGain& gain : transfer_.wallGains()) {
+        const double* centre = atom->x[gain.particle];
+        const double radius = atom->radius[gain.particle];
+        const Vector3 point(centre[0] + radius * gain.normal[0], centre[1] + radius * gain.normal[1],
+                            centre[2] + radius * gain.normal[2]);
+        wallCharges_.push_back({point, gain.wall, gain.charge});
+    }
+}
+
+void FixChargeGranContact::takeWallCharges(std::vector<WallCharge>& out)
+{
+    out.clear();
+    out.swap(wallCharges_);
 }
 
 int FixChargeGranContact::pack_comm(int n, int* list, double* buffer, int, int*)

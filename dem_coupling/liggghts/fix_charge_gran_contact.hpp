@@ -53,6 +53,8 @@ public:
     /// Sums over ranks. Collective.
     ChargeMovements movements() const;
     ContactCounts contacts() const;
+    /// See DemPort::takeWallCharges.
+    void takeWallCharges(std::vector<WallCharge>& out);
 
     // --- LIGGGHTS' life cycle
     int setmask() override;
@@ -85,6 +87,7 @@ private:
     void tell(const std::string& text) const;
     std::size_t packRow(int row, double* buffer) const;
     void bookArrivals();
+    void keepWallCharges();
 
     ContactRecorder recorder_;
     ChargeTransfer transfer_;
@@ -92,6 +95,7 @@ private:
     std::vector<GrowingWallContact> growingWallContacts_;
     std::vector<ListedWall> walls_;
     std::vector<WallRole> roles_;
+    std::vector<WallCharge> wallCharges_;  ///< not taken yet
     std::vector<char> booked_;   ///< per row: the particle's charge stands in the books
     std::vector<char> charged_;  ///< per row: the particle got its initial charge, or brought one
     bool arrivals_ = false;     ///< some row is not booked yet

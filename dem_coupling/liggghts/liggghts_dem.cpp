@@ -363,6 +363,19 @@ ContactCounts LiggghtsDem::contacts() const
     return counts;
 }
 
+void LiggghtsDem::takeWallCharges(std::vector<WallCharge>& out)
+{
+    out.clear();
+    if (charging_) {
+        charging_->takeWallCharges(out);
+    }
+}
+
+std::vector<Vector3> LiggghtsDem::wallPoints(std::size_t wall) const
+{
+    return pointsOfMeshWall(lmp_.get(), walls_.at(wall).name);
+}
+
 void LiggghtsDem::writeCheckpoint(const std::string& file)
 {
     command("write_restart " + file);

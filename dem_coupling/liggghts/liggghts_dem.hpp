@@ -25,6 +25,7 @@ public:
     bool charging() const override { return charging_ != nullptr; }
     std::string chargingDescription() const override;
     Complaints check() const override;
+    std::vector<Vector3> wallPoints(std::size_t wall) const override;
     bool ranBeforeHandOver() const override;
 
     void setWallRoles(const std::vector<WallRole>& roles) override;
@@ -42,6 +43,7 @@ public:
 
     ChargeMovements movements() const override;
     ContactCounts contacts() const override;
+    void takeWallCharges(std::vector<WallCharge>& out) override;
     void writeCheckpoint(const std::string& file) override;
 
 private:

@@ -72,4 +72,21 @@ std::vector<ListedWall> listWalls(LAMMPS_NS::LAMMPS* lmp)
     return walls;
 }
 
+std::vector<Vector3> pointsOfMeshWall(LAMMPS_NS::LAMMPS* lmp, const std::string& name)
+{
+    std::vector<Vector3> points;
+    auto* fix = dynamic_cast<LAMMPS_NS::FixMeshSurface*>(lmp->modify->find_fix_id(name.c_str()));
+    if (fix) {
+        LAMMPS_NS::TriMesh& mesh = *fix->triMesh();
+        for (int facet = 0; facet < mesh.sizeLocal(); ++facet) {
+            for (int corner = 0; corner < 3; ++corner) {
+                double node[3];
+                mesh.node(facet, corner, node);
+                points.emplace_back(node);
+            }
+        }
+    }
+    return points;
+}
+
 }  // namespace him

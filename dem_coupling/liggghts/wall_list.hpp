@@ -21,4 +21,7 @@ struct ListedWall {
 /// All granular walls of the script, in its order.
 std::vector<ListedWall> listWalls(LAMMPS_NS::LAMMPS* lmp);
 
+/// Corners [m] of the facets of a mesh wall that this rank owns; empty for another name.
+std::vector<Vector3> pointsOfMeshWall(LAMMPS_NS::LAMMPS* lmp, const std::string& name);
+
 }  // namespace him

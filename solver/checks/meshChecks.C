@@ -2,6 +2,7 @@
 #include "checks/caseChecks.H"
 
 #include "foamPoissonMesh/meshArrays.H"
+#include "insulatingWalls/wallCharges.H"
 #include "settings/checkedDictionary.H"
 #include "settings/electricRegion.H"
 #include "settings/foamExceptions.H"
@@ -210,10 +211,23 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
             continue;
         }
         if (!mesh) {
-            if (target != groundedTarget) {
+            if (target == insulatingTarget) {
+                complaints.add(where + wall, "an insulating wall needs faces of a mesh to carry its charge, and fieldMethod "
+                                                 + settings.field.method
+                                                 + " reads none. Use him, himCell or p3m, or map the wall to grounded.");
+            } else if (target != groundedTarget) {
                 complaints.add(where + wall, "unknown target `" + target + "`; fieldMethod " + settings.field.method
                                                  + " reads no mesh, so the known ones are grounded, noTransfer.");
             }
+            continue;
+        }
+        if (wallCharges::isInsulating(target, mesh->matter())) {
+            continue;
+        }
+        if (target == insulatingTarget) {
+            complaints.add(where + wall, "an insulating wall needs faces of the mesh to carry its charge, and the case names none. "
+                                         "Name internal faces in insulatingWalls of constant/electrostaticProperties, or give a "
+                                         "patch the condition insulatingWall in electricPotential.");
             continue;
         }
         std::vector<std::string> known;
@@ -231,8 +245,8 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
             complaints.add(where + wall,
                            "the potential on patch " + target + " is " + type
                                + ", which does not fix a voltage. "
-                                 "Charge on insulating walls is not modelled: give the patch a fixedValue in "
-                                 "electricPotential, or map the wall to noTransfer.");
+                                 "Give the patch a fixedValue in electricPotential, or the condition insulatingWall where it "
+                                 "keeps its charge, or map the wall to noTransfer.");
         }
     }
 }

@@ -40,7 +40,8 @@ std::unique_ptr<FieldMethod> handSettingsTo(const scene& s, MPI_Comm communicato
 {
     std::vector<WallRole> roles;
     for (const auto& [wall, target] : s.settings.walls) {
-        roles.push_back({wall, target != noTransfer});
+        const bool keeps = s.poisson && wallCharges::isInsulating(target, s.poisson->matter());
+        roles.push_back({wall, target != noTransfer, keeps});
     }
     auto method =
         FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
@@ -60,6 +61,11 @@ void write(scene& s, const CoupledStep& step, particleWriter& particles, PhaseTi
         return;
     }
     particles.write(step.particles(), step.field().field);
+    if (s.insulatingWalls) {
+        s.insulatingWalls->write(s.runTime());
+    } else if (s.poisson && s.poisson->matter()) {
+        s.poisson->matter()->write();
+    }
     if (s.settings.demCheckpoint) {
         const Foam::fileName folder = Foam::fileName(s.settings.demScript).path() / "restart";
         Foam::mkDir(folder);
@@ -74,7 +80,8 @@ void run(scene& s, MPI_Comm communicator)
     const auto method = handSettingsTo(s, communicator, times);
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
-    chargeTable charge(runTime, s.dem->walls());
+    step.setWallCharges(s.insulatingWalls.get());
+    chargeTable charge(runTime, s.dem->walls(), step.hasInsulatingWalls());
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
     runReport report(runTime, times, s.settings.logInterval);
@@ -82,7 +89,7 @@ void run(scene& s, MPI_Comm communicator)
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     step.start();
     printOwnCellField(*method, step.particles());
-    charge.write(runTime.value(), step.summary(), step.books());
+    charge.write(runTime.value(), step);
     fieldError.update(step);
     const double deltaT = runTime.deltaTValue();
     while (runTime.loop()) {
@@ -92,7 +99,7 @@ void run(scene& s, MPI_Comm communicator)
         report.beginStep();
         step.advance(s.demSteps);
         if (runTime.timeIndex() % s.settings.chargeInterval == 0) {
-            charge.write(runTime.value(), step.summary(), step.books());
+            charge.write(runTime.value(), step);
         }
         write(s, step, *particles, times);
         {

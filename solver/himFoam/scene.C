@@ -55,6 +55,7 @@ void openDem(scene& s, MPI_Comm communicator)
     choosePairSum(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
     if (s.poisson) {
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
+        s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);
     }
     stopOnComplaints(complaints, "Case and DEM script together", communicator);
     printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);

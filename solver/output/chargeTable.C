@@ -8,7 +8,8 @@
 
 namespace him {
 
-chargeTable::chargeTable(const Foam::Time& runTime, const std::vector<DemWall>& walls) : walls_(walls.size())
+chargeTable::chargeTable(const Foam::Time& runTime, const std::vector<DemWall>& walls, bool insulatingWalls)
+    : walls_(walls.size())
 {
     if (!Foam::Pstream::master()) {
         return;
@@ -24,11 +25,13 @@ chargeTable::chargeTable(const Foam::Time& runTime, const std::vector<DemWall>& 
     for (const DemWall& wall : walls) {
         file_ << ' ' << wall.name;
     }
-    file_ << " inserted removed leaked breakdown closureError largestField energy" << std::endl;
+    file_ << " inserted removed leaked breakdown closureError largestField energy" << (insulatingWalls ? " wallFaces wallFaceError" : "") << std::endl;
 }
 
-void chargeTable::write(double time, const StepSummary& summary, const ChargeBooks& books)
+void chargeTable::write(double time, const CoupledStep& step)
 {
+    const StepSummary& summary = step.summary();
+    const ChargeBooks& books = step.books();
     if (!file_.is_open()) {
         return;
     }
@@ -45,6 +48,9 @@ void chargeTable::write(double time, const StepSummary& summary, const ChargeBoo
         file_ << "nan";
     } else {
         file_ << summary.energy;
+    }
+    if (step.hasInsulatingWalls()) {
+        file_ << ' ' << step.wallFaceCharge() << ' ' << step.wallFaceError();
     }
     file_ << std::endl;
 }

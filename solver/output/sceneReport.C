@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/runReport.H"
+
+#include "insulatingWalls/wallCharges.H"
 #include "settings/checkedDictionary.H"
 
 #include "dem_coupling/accuracy_choice.hpp"
@@ -36,6 +38,8 @@ wallRow rowOf(const DemWall& wall, const std::string& target, const DemPort& dem
         row.kind = "no transfer";
     } else if (!mesh) {
         row.kind = "grounded conductor";
+    } else if (wallCharges::isInsulating(target, mesh->matter())) {
+        row.kind = "insulating, keeps charge";
     } else {
         const Foam::label patch = mesh->mesh().boundaryMesh().findPatchID(target);
         row.kind = kindOf(mesh->electricPotential().boundaryField()[patch]);

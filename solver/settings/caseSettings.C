@@ -52,6 +52,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
     settings.field.outsideMesh = properties.oneOf("particlesOutsideMesh", {"error", "excluded"}, "error") == "excluded"
                                      ? OutsideMesh::excluded
                                      : OutsideMesh::error;
+    settings.wallDistance = properties.has("wallDistance") ? properties.positive("wallDistance", 1) : 0;
     settings.allowRemovals = properties.yesNo("allowRemovals", false);
     settings.demCheckpoint = properties.yesNo("demCheckpoint", true);
     settings.logInterval = properties.positiveInteger("logInterval", 1);

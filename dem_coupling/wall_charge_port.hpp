@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/dem_port.hpp"
+
+#include <vector>
+
+namespace him {
+
+/// Where the charge of insulating walls lies: on faces of the mesh.
+class WallChargePort {
+public:
+    virtual ~WallChargePort() = default;
+
+    /// Adds the charge of this rank's contacts to the faces under them. Throws std::runtime_error, the same on every rank,
+    /// when a contact is at no face. Collective.
+    virtual void add(const std::vector<WallCharge>& charges) = 0;
+    /// Charge on all faces of all ranks [C]. Collective.
+    virtual double total() const = 0;
+    /// Whether a DEM wall, by its row in DemPort::walls(), keeps its charge on faces.
+    virtual bool keeps(std::size_t demWall) const = 0;
+};
+
+}  // namespace him

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Charge that contacts leave on an insulating wall: it lies on the face under the contact, is conserved, and acts."""
+
+import re
+import tempfile
+import unittest
+
+from insulating_walls_test import INTERFACE, slabs
+
+# Four spheres of 1 mm about to hit the wall from above, one of them charged, and one that stays away from it.
+FALLING = [
+    ((0.0231, 0.0312, INTERFACE + 0.0006), (0.3, -0.1, -0.5), 0.),
+    ((0.0742, 0.0263, INTERFACE + 0.0007), (-0.2, 0.2, -0.4), 0.),
+    ((0.0317, 0.0728, INTERFACE + 0.0006), (0.1, 0.1, -0.6), 2e-11),
+    ((0.0568, 0.0539, INTERFACE + 0.0008), (-0.1, 0.3, -0.5), 0.),
+    ((0.0723, 0.0719, 0.0746), (0.2, -0.2, -0.1), 5e-11),
+]
+
+
+def bed(folder, method="him", target="middle", height=INTERFACE):
+    case = slabs(folder, method, nx=5, lower=4, upper=6, particles=FALLING)
+    case.replace("constant/couplingProperties", "floor bottom;", "floor %s;" % target)
+    case.replace("DEM/in.cube", "zplane 0.0\n", "zplane %r\n" % height)
+    return case
+
+
+class WallCharges(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def ran(self, case, ranks=1):
+        if ranks > 1:
+            case.decompose(ranks)
+        result = case.run(ranks=ranks)
+        self.assertEqual(result.code, 0, result.text[-3000:])
+        return case.charge_table()[1][-1]
+
+    def faces(self, case, time="0.002"):
+        """Centre [m] in x and y to charge per area [C/m2], from the file for ParaView."""
+        text = (case.path / "postProcessing/wallCharge" / (time + ".vtp")).read_text()
+        numbers = {name: [float(word) for word in body.split()]
+                   for name, body in re.findall(r'Name="(\w+)"[^>]*>\n(.*?)</DataArray>', text, re.S)}
+        found = {}
+        for n, charge in enumerate(numbers["surfaceCharge"]):
+            corners = [numbers["position"][3 * k:3 * k + 3] for k in range(4 * n, 4 * n + 4)]
+            self.assertTrue(all(abs(corner[2] - INTERFACE) < 1e-12 for corner in corners))
+            found[tuple(round(sum(c[axis] for c in corners) / 4, 9) for axis in (0, 1))] = charge
+        return found
+
+    def test_charge_stays_on_the_faces_under_the_contacts_and_the_books_close(self):
+        case = bed(self.folder)
+        row = self.ran(case)
+        everything = abs(row["wallFaces"]) + 7e-11
+        self.assertGreater(abs(row["floor"]), 1e-12)
+        self.assertAlmostEqual(row["wallFaces"], row["floor"], delta=1e-12 * everything)
+        self.assertAlmostEqual(row["wallFaceError"], 0, delta=1e-12 * everything)
+        self.assertAlmostEqual(row["total"] + row["wallFaces"], 7e-11, delta=1e-12 * everything)
+        faces = self.faces(case)
+        self.assertEqual(len(faces), 25)
+        charged = {centre for centre, charge in faces.items() if charge != 0}
+        # Faces of 20 mm: the one under each of the four that touch.
+        self.assertEqual(charged, {(0.03, 0.03), (0.07, 0.03), (0.03, 0.07), (0.05, 0.05)})
+        self.assertAlmostEqual(sum(faces.values()) * 0.02**2, row["floor"], delta=1e-12 * everything)
+
+    def test_any_insulating_wall_is_found_by_nearness(self):
+        named = self.ran(bed(self.folder + "/named"))
+        anyone = self.ran(bed(self.folder + "/any", target="insulating"))
+        self.assertEqual(named["wallFaces"], anyone["wallFaces"])
+
+    def test_any_number_of_ranks_gives_the_same_faces(self):
+        for method, tolerance in (("him", 1e-9), ("p3m", 1e-9)):
+            serial_case = bed("%s/%s1" % (self.folder, method), method)
+            serial = self.ran(serial_case)
+            faces = self.faces(serial_case)
+            for ranks in (2, 4):
+                case = bed("%s/%s%d" % (self.folder, method, ranks), method)
+                row = self.ran(case, ranks)
+                self.assertAlmostEqual(row["wallFaces"] / serial["wallFaces"], 1, delta=tolerance)
+                self.assertAlmostEqual(row["wallFaceError"], 0, delta=1e-12 * 1e-10)
+                for centre, charge in self.faces(case).items():
+                    self.assertAlmostEqual(charge, faces[centre], delta=tolerance * max(map(abs, faces.values())))
+
+    def test_the_wall_pulls_what_has_charged_at_it(self):
+        """Gamma is negative here: spheres leave with negative charge, and the positive wall pulls them back."""
+        case = bed(self.folder, "p3m")
+        case.replace("constant/couplingProperties", "walls {", "wallContactField self; walls {")
+        case.replace("constant/couplingProperties", "wallContactField total;", "")
+        self.assertGreater(self.ran(case)["wallFaces"], 0)
+        sphere = case.particles("0.002")[1]
+        self.assertLess(sphere["charge"], 0)
+        self.assertGreater(sphere["electricField"][2], 0)  # away from the wall, so the force is towards it
+
+    def test_a_run_that_continues_finds_the_charge_of_every_face(self):
+        straight = bed(self.folder + "/straight")
+        straight.replace("system/controlDict", "endTime 2e-3;", "endTime 4e-3;")
+        straight.replace("system/controlDict", "writeFormat ascii;", "writeFormat binary;")
+        from restart_test import continuing, PARTICLES  # the script with a branch on the time that himFoam starts from
+        self.assertTrue(PARTICLES)
+        script = straight.path / "DEM/in.cube"
+        script.write_text(continuing(script.read_text()))
+        row = self.ran(straight)
+        faces = self.faces(straight, "0.004")
+        straight.replace("system/controlDict", "startTime 0;", "startTime 0.002;")
+        again = straight.run()
+        self.assertEqual(again.code, 0, again.text[-2000:])
+        more = straight.charge_table("0.002")[1][-1]
+        self.assertEqual(self.faces(straight, "0.004"), faces)
+        self.assertEqual(more["wallFaces"], row["wallFaces"])
+        self.assertAlmostEqual(more["wallFaceError"], 0, delta=1e-12 * 1e-10)
+
+    def test_a_dem_wall_off_the_faces_is_refused(self):
+        result = bed(self.folder, height=INTERFACE + 0.004).run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("the DEM wall lies off the insulating wall of the mesh by 0.004 m, more than wallDistance, 0.002 m", result.text)
+
+    def test_an_insulating_wall_without_faces_is_refused(self):
+        case = bed(self.folder, target="insulating")
+        text = (case.path / "constant/electrostaticProperties").read_text()
+        (case.path / "constant/electrostaticProperties").write_text(re.sub("insulatingWalls.*\n", "", text))
+        result = case.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("an insulating wall needs faces of the mesh to carry its charge, and the case names none.", result.text)
+
+    def test_a_wall_keeps_no_charge_without_a_mesh(self):
+        case = bed(self.folder, target="insulating")
+        case.replace("constant/electrostaticProperties", "fieldMethod him;", "fieldMethod pairwiseSum;")
+        result = case.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("an insulating wall needs faces of a mesh to carry its charge", result.text)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
