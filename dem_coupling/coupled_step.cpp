@@ -51,8 +51,11 @@ void CoupledStep::updateField()
         books_.post(summary_.totalCharge, absoluteCharge_, dem_.movements());
         stopOnOpenBooks(books_);
         if (walls_ && std::fabs(wallFaceError()) > ChargeBooks::tolerance * books_.scale()) {
-            throw std::runtime_error("the charge on the faces of insulating walls is not what contacts left there: off by "
-                                     + std::to_string(wallFaceError() / books_.scale()) + " of all charge");
+            throw std::runtime_error(
+                "the charge on the faces of insulating walls is not what contacts left there: off by "
+                + std::to_string(wallFaceError() / books_.scale())
+                + " of all charge. A wallSurfaceCharge that does not belong to the "
+                  "DEM checkpoint makes this: continue from a time that has both");
         }
     }
     const PhaseTimer timer(times_, Phase::dem);

@@ -56,8 +56,8 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
       radius_(radiusFrom(settings.p3m, cellSize_)),
       exponent_(exponentFrom(settings.p3m, radius_, cellSize_)),
       locator_(mesh, communicator, demBox, periodic),
-      halo_(mesh.arrays(), 2 * radius_ + 3 * reachOfCells_, PolynomialGather::layers(static_cast<int>(settings.p3m.gather)),
-            communicator),
+      halo_(mesh.arrays(), 2 * radius_ + 3 * reachOfCells_,
+            PolynomialGather::layers(static_cast<int>(settings.p3m.gather)), communicator),
       surroundings_(halo_.mesh(), radius_),
       deposit_(halo_.mesh(), surroundings_, radius_, exponent_),
       gather_(halo_.mesh(), surroundings_, static_cast<int>(settings.p3m.gather)),
@@ -77,7 +77,10 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
     correct_ = settings.p3m.deferredCorrection && !matched_;
 }
 
-double P3m::partnerCutoff() const { return std::numeric_limits<double>::infinity(); }
+double P3m::partnerCutoff() const
+{
+    return std::numeric_limits<double>::infinity();
+}
 
 void P3m::compute(const DemParticles& particles, ParticleField& result)
 {
@@ -103,7 +106,8 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
     result.potential = atRows_.col(3);
     result.ownResponse = atRows_.rightCols(3);
     if (!planes_.empty()) {
-        ownImageField(planes_, particles, settings_.permittivity, std::numeric_limits<double>::infinity(), images_, result.ownResponse);
+        ownImageField(planes_, particles, settings_.permittivity, std::numeric_limits<double>::infinity(), images_,
+                      result.ownResponse);
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
@@ -145,9 +149,9 @@ void P3m::depositAndSolve()
         // What the second-order solve leaves of eps laplacian(V) + rho = 0 at the cell centres, as charge.
         Scalars residual(mesh.ownCells);
         for (Index cell = 0; cell < mesh.ownCells; ++cell) {
-            residual[cell] = cellCharge_[cell]
-                             + settings_.permittivity * mesh.volume[cell]
-                                   * gather_.laplacian(cell, cellPotential_, boundaryValue_);
+            residual[cell] =
+                cellCharge_[cell]
+                + settings_.permittivity * mesh.volume[cell] * gather_.laplacian(cell, cellPotential_, boundaryValue_);
         }
         mesh_.correct(residual);
         takeFaceValues();
@@ -175,7 +179,8 @@ void P3m::setBoundaryValues()
             boundaryValue_[face] -= coulombConstant * charge * cloud_.shortRangePotential(distance);
         } else {
             const Vector3 normal = faces.normal.row(face).matrix().transpose();
-            boundaryValue_[face] += coulombConstant * charge * cloud_.shortRangeFieldCoefficient(distance) * r.dot(normal);
+            boundaryValue_[face] +=
+                coulombConstant * charge * cloud_.shortRangeFieldCoefficient(distance) * r.dot(normal);
         }
     };
     for (Index row = 0; row < sources_.size(); ++row) {
@@ -223,8 +228,8 @@ void P3m::sumNear(ParticleField& result)
                 points_.position.row(to) = sources_.position.row(row);
                 points_.charge[to++] = sources_.charge[row];
             }
-            for (auto n = static_cast<std::size_t>(sources_.firstImage[r]); n < static_cast<std::size_t>(sources_.firstImage[r + 1]);
-                 ++n) {
+            for (auto n = static_cast<std::size_t>(sources_.firstImage[r]);
+                 n < static_cast<std::size_t>(sources_.firstImage[r + 1]); ++n) {
                 points_.position.row(to) = sources_.images[n].position.transpose().array();
                 points_.charge[to++] = sources_.images[n].sign * sources_.charge[row];
             }
@@ -271,15 +276,16 @@ void P3m::addHiddenPairs()
         };
         for (Index target = 0; target < sources_.targets; ++target) {
             const Index cell = sources_.cell[static_cast<std::size_t>(target)];
-            const bool near = (sources_.position.row(target) - sources_.position.row(row)).square().sum() < radius_ * radius_ * 4;
+            const bool near =
+                (sources_.position.row(target) - sources_.position.row(row)).square().sum() < radius_ * radius_ * 4;
             if (!near || !around.reaches(cell)) {
                 continue;
             }
             if (target != row) {
                 add(target, sources_.position.row(row).matrix().transpose(), sources_.charge[row]);
             }
-            for (auto n = static_cast<std::size_t>(sources_.firstImage[r]); n < static_cast<std::size_t>(sources_.firstImage[r + 1]);
-                 ++n) {
+            for (auto n = static_cast<std::size_t>(sources_.firstImage[r]);
+                 n < static_cast<std::size_t>(sources_.firstImage[r + 1]); ++n) {
                 add(target, sources_.images[n].position, sources_.images[n].sign * sources_.charge[row]);
             }
         }
@@ -291,7 +297,7 @@ void P3m::gatherAtTargets()
     const PhaseTimer timer(times_, Phase::gather);
     const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
     const double ownPotential = coulombConstant * cloud_.potential(0);
-    PolynomialGather::Polynomial polynomial;
+    LocalPolynomial polynomial;
     Index fitted = -1;
     for (Index target = 0; target < sources_.targets; ++target) {
         const Index cell = sources_.cell[static_cast<std::size_t>(target)];
@@ -350,7 +356,7 @@ Vector3 P3m::ownCloudGradient(Index target)
         scratchFaces_[face] =
             value ? potentialAt(x) : -fieldAt(x).dot(mesh.boundary.normal.row(face).matrix().transpose());
     }
-    PolynomialGather::Polynomial polynomial;
+    LocalPolynomial polynomial;
     gather_.fit(cell, scratchCells_, scratchFaces_, polynomial);
     double value = 0;
     Vector3 gradient;
@@ -362,7 +368,8 @@ Vector3 P3m::ownCloudGradient(Index target)
 void P3m::addOwnImages(Index target)
 {
     const auto t = static_cast<std::size_t>(target);
-    for (auto n = static_cast<std::size_t>(sources_.firstImage[t]); n < static_cast<std::size_t>(sources_.firstImage[t + 1]); ++n) {
+    for (auto n = static_cast<std::size_t>(sources_.firstImage[t]);
+         n < static_cast<std::size_t>(sources_.firstImage[t + 1]); ++n) {
         const Vector3 r = sources_.position.row(target).matrix().transpose() - sources_.images[n].position;
         const double scale = sources_.images[n].sign * sources_.charge[target] / (4.0 * pi * settings_.permittivity);
         atTargets_.row(target).tail(3) += scale * (r / std::pow(r.norm(), 3)).transpose().array();

@@ -14,9 +14,9 @@ namespace him {
 
 namespace {
 
-constexpr const char* knownKeywords =
-    "method, cutoff, images, without_image, every, external, relative_permittivity, wall_contact_field, limit_field_force, "
-    "field_force_limit_factor";
+constexpr const char* knownKeywords = "method, cutoff, images, without_image, every, external, relative_permittivity, "
+                                      "wall_contact_field, limit_field_force, "
+                                      "field_force_limit_factor";
 
 std::string namesOf(const std::vector<DemWall>& walls)
 {
@@ -107,11 +107,7 @@ EfieldHimOptions readEfieldHimOptions(const std::vector<std::string>& words)
         } else if (keyword == "wall_contact_field") {
             options.wallContactField =
                 reader.oneOf(keyword, {"total", "self"}) == 1 ? WallContactField::self : WallContactField::total;
-        } else if (keyword == "limit_field_force") {
-            options.limiter.active = reader.oneOf(keyword, {"no", "yes"}) == 1;
-        } else if (keyword == "field_force_limit_factor") {
-            options.limiter.factor = readLimitFactor(reader, complaints);
-        } else {
+        } else if (!readLimiter(keyword, reader, options.limiter, complaints)) {
             throw std::invalid_argument("unknown keyword '" + keyword + "'; known: " + knownKeywords);
         }
     }
@@ -142,10 +138,11 @@ void findImageWalls(EfieldHimOptions& options, const std::vector<DemWall>& walls
         if (wall.primitive) {
             sum.imageWalls.push_back(wall.image);
         } else {
-            complaints.add("images yes", "wall " + wall.name
-                                             + " is a mesh, and the pair sum mirrors charges in planes and cylinders only. Use "
-                                               "a primitive wall, or write without_image "
-                                             + wall.name + ", or use p3m in himFoam");
+            complaints.add("images yes",
+                           "wall " + wall.name
+                               + " is a mesh, and the pair sum mirrors charges in planes and cylinders only. Use "
+                                 "a primitive wall, or write without_image "
+                               + wall.name + ", or use p3m in himFoam");
         }
     }
     if (sum.imageWalls.empty() && complaints.none()) {

@@ -51,9 +51,10 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
         error->fix_error(FLERR, this, "needs charged spheres: write 'atom_style hybrid granular charge'");
     }
     if (domain->dimension != 3) {
-        error->fix_error(FLERR, this,
-                         "found 'dimension 2', which makes discs of unit length; contact areas are those of spheres. Write "
-                         "'dimension 3', and confine spheres to a plane by fix constrain/plane");
+        error->fix_error(
+            FLERR, this,
+            "found 'dimension 2', which makes discs of unit length; contact areas are those of spheres. Write "
+            "'dimension 3', and confine spheres to a plane by fix constrain/plane");
     }
     if (strcmp(update->unit_style, "si") != 0) {
         error->fix_error(FLERR, this, "works in 'units si' only");
@@ -123,107 +124,11 @@ void FixChargeGranContact::init()
     transfer_.setMinimumImage(periodic ? shortenInBox : nullptr, domain);
 }
 
-// ---------------------------------------------------------------------- walls
-
-int FixChargeGranContact::wallRow(const LAMMPS_NS::Fix* wall) const
-{
-    for (std::size_t row = 0; row < walls_.size(); ++row) {
-        if (walls_[row].fix == wall) {
-            return static_cast<int>(row);
-        }
-    }
-    error->one(FLERR, "a wall touches particles that fix charge/gran/contact does not know");
-    return -1;
-}
-
-void FixChargeGranContact::refreshWalls()
-{
-    std::vector<ListedWall> now = listWalls(lmp);
-    std::vector<CompensatedSum> given(now.size());
-    std::vector<int> types;
-    std::vector<char> transfers, keeps;
-    for (std::size_t row = 0; row < now.size(); ++row) {
-        const DemWall& wall = now[row].wall;
-        types.push_back(wall.type);
-        const auto role =
-            std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == wall.name; });
-        transfers.push_back(role == roles_.end() || role->transfersCharge);
-        keeps.push_back(role != roles_.end() && role->keepsCharge);
-        for (std::size_t old = 0; old < walls_.size(); ++old) {
-            if (walls_[old].wall.name == wall.name) {
-                given[row] = transfer_.toWall()[old];
-            }
-        }
-    }
-    if (!restartedToWall_.empty() && restartedToWall_.size() == now.size()) {
-        std::transform(restartedToWall_.begin(), restartedToWall_.end(), given.begin(),
-                       [](double charge) { return CompensatedSum(charge); });
-        restartedToWall_.clear();
-    }
-    walls_ = std::move(now);
-    transfer_.setWalls(std::move(types), std::move(transfers), std::move(keeps));
-    transfer_.toWall() = std::move(given);
-    size_vector = 1 + static_cast<int>(walls_.size()) + 4;
-}
-
-void FixChargeGranContact::setWallRoles(const std::vector<WallRole>& roles)
-{
-    // What the script says about a wall stands; the case's word joins it.
-    for (const WallRole& role : roles) {
-        const auto own = std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == role.name; });
-        if (own == roles_.end()) {
-            roles_.push_back(role);
-        } else {
-            own->transfersCharge = own->transfersCharge && role.transfersCharge;
-        }
-    }
-    refreshWalls();
-}
-
 void FixChargeGranContact::handOver()
 {
     enabled_ = true;
     std::fill(booked_.begin(), booked_.begin() + atom->nlocal, char(1));
     arrivals_ = false;
-}
-
-std::string FixChargeGranContact::description()
-{
-    findSoftening();
-    std::ostringstream text;
-    text << transfer_.pairs().describe() << "    contact area " << nameOf(recorder_.areaLaw) << ", reloading "
-         << (recorder_.reloading == Reloading::counted ? "counted" : "beyondMaximum") << ", curvature " << curvature_
-         << " degrees, update " << nameOf(transfer_.update()) << ", own image at walls "
-         << (transfer_.ownImage() ? "included" : "excluded") << '\n';
-    if (transfer_.pairs().acceleration() != 1) {
-        text << "    ACCELERATED: every charge transfer is multiplied by a = " << transfer_.pairs().acceleration()
-             << "; times of charging are not real times\n";
-    }
-    if (losses_.relaxationTime() > 0) {
-        text << "    leakage to ground, relaxation time " << losses_.relaxationTime() << " s\n";
-    }
-    if (losses_.breakdownField() > 0) {
-        text << "    breakdown above a surface field of " << losses_.breakdownField() << " V/m\n";
-    }
-    for (const WallRole& role : roles_) {
-        if (!role.transfersCharge) {
-            text << "    wall " << role.name << ": no charge transfer\n";
-        }
-    }
-    text << initial_.describe();
-    return text.str();
-}
-
-void FixChargeGranContact::tell(const std::string& text) const
-{
-    if (comm->me != 0) {
-        return;
-    }
-    for (FILE* file : {screen, logfile}) {
-        if (file) {
-            std::fputs(text.c_str(), file);
-        }
-    }
 }
 
 void FixChargeGranContact::findSoftening()
@@ -238,19 +143,24 @@ void FixChargeGranContact::findSoftening()
         modify->find_fix_property("poissonsRatio", "property/global", "peratomtype", types, 0, style));
     const auto real = [&](int type) {
         const auto given = realModuli_.find(type);
-        return Elasticity{given == realModuli_.end() ? young->compute_vector(type - 1) : given->second, poisson->compute_vector(type - 1)};
+        return Elasticity{given == realModuli_.end() ? young->compute_vector(type - 1) : given->second,
+                          poisson->compute_vector(type - 1)};
     };
-    const auto soft = [&](int type) { return Elasticity{young->compute_vector(type - 1), poisson->compute_vector(type - 1)}; };
+    const auto soft = [&](int type) {
+        return Elasticity{young->compute_vector(type - 1), poisson->compute_vector(type - 1)};
+    };
     for (const auto& [type, modulus] : realModuli_) {
         if (modulus < soft(type).youngsModulus) {
             error->fix_error(FLERR, this,
-                             ("realModulus " + std::to_string(type) + ": the real modulus is below the script's youngsModulus, which is meant to be the "
-                                                                      "softened one")
+                             ("realModulus " + std::to_string(type)
+                              + ": the real modulus is below the script's youngsModulus, which is meant to be the "
+                                "softened one")
                                  .c_str());
         }
         for (int other = 1; other <= types; ++other) {
-            transfer_.pairs().setSoftening(type, other, softeningCorrection(effectiveModulus(soft(type), soft(other)),
-                                                                             effectiveModulus(real(type), real(other))));
+            transfer_.pairs().setSoftening(type, other,
+                                           softeningCorrection(effectiveModulus(soft(type), soft(other)),
+                                                               effectiveModulus(real(type), real(other))));
         }
     }
     transfer_.setPermittivity(transfer_.permittivity());
@@ -278,7 +188,8 @@ void FixChargeGranContact::chargeNewParticles()
         }
         charged_[i] = 1;
         if (atom->q[i] == 0 && contains(i)) {
-            atom->q[i] = initial_.of(atom->type[i], atom->tag[i], atom->radius[i], transfer_.pairs(), transfer_.permittivity());
+            atom->q[i] =
+                initial_.of(atom->type[i], atom->tag[i], atom->radius[i], transfer_.pairs(), transfer_.permittivity());
             if (booked_[i]) {
                 inserted_ += atom->q[i];  // it was there without charge when the books were opened
             }
@@ -339,43 +250,6 @@ void FixChargeGranContact::end_of_step()
     recorder_.clear();
 }
 
-void FixChargeGranContact::post_run()
-{
-    if (hosted) {
-        return;  // the host reports
-    }
-    const ContactCounts counts = contacts();
-    std::ostringstream text;
-    if (transfer_.pairs().acceleration() != 1) {
-        text << "Contact charging was ACCELERATED by a = " << transfer_.pairs().acceleration() << '\n';
-    }
-    if (counts.strongFrozen > 0) {
-        text << "WARNING: " << counts.strongFrozen << " contacts passed x = kappa A/(4 pi r^2) = 0.5 under 'update frozen', above which it may overshoot. "
-                "Use 'update updated' or a smaller kappa\n";
-    }
-    if (losses_.breakdownField() > 0) {
-        text << "Breakdown limited the charge of particles " << counts.breakdowns << " times\n";
-    }
-    tell(text.str());
-}
-
-void FixChargeGranContact::keepWallCharges()
-{
-    for (const ChargeTransfer::WallGain& gain : transfer_.wallGains()) {
-        const double* centre = atom->x[gain.particle];
-        const double radius = atom->radius[gain.particle];
-        const Vector3 point(centre[0] + radius * gain.normal[0], centre[1] + radius * gain.normal[1],
-                            centre[2] + radius * gain.normal[2]);
-        wallCharges_.push_back({point, gain.wall, gain.charge});
-    }
-}
-
-void FixChargeGranContact::takeWallCharges(std::vector<WallCharge>& out)
-{
-    out.clear();
-    out.swap(wallCharges_);
-}
-
 int FixChargeGranContact::pack_comm(int n, int* list, double* buffer, int, int*)
 {
     const std::vector<double>& sums = transfer_.relaxationSums();
@@ -393,57 +267,6 @@ void FixChargeGranContact::unpack_comm(int n, int first, double* buffer)
         atom->q[first + k] = buffer[2 * k];
         sums[first + k] = buffer[2 * k + 1];
     }
-}
-
-// ---------------------------------------------------------------------- books
-
-ChargeMovements FixChargeGranContact::movements() const
-{
-    std::vector<double> mine{inserted_.value(), losses_.leaked().value(), losses_.brokenDown().value()};
-    for (const CompensatedSum& given : transfer_.toWall()) {
-        mine.push_back(given.value());
-    }
-    std::vector<double> all(mine.size());
-    MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, world);
-    ChargeMovements total;
-    total.inserted = all[0];
-    total.leaked = all[1];
-    total.breakdown = all[2];
-    total.toWall.assign(all.begin() + 3, all.end());
-    return total;
-}
-
-ContactCounts FixChargeGranContact::contacts() const
-{
-    const double mine[4] = {pairsBegun_, wallContactsBegun_, transfer_.strongFrozenContacts(), losses_.breakdowns()};
-    double all[4];
-    MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
-    ContactCounts counts;
-    counts.particleParticle = all[0];
-    counts.particleWall = all[1];
-    counts.strongFrozen = all[2];
-    counts.breakdowns = all[3];
-    double largest = transfer_.largestRelaxation();
-    MPI_Allreduce(&largest, &counts.largestRelaxation, 1, MPI_DOUBLE, MPI_MAX, world);
-    return counts;
-}
-
-double FixChargeGranContact::compute_vector(int n)
-{
-    const int walls = static_cast<int>(walls_.size());
-    double mine = 0;
-    if (n == 0) {
-        mine = inserted_.value();
-    } else if (n <= walls) {
-        mine = transfer_.toWall()[static_cast<std::size_t>(n - 1)].value();
-    } else {
-        const double rest[4] = {losses_.leaked().value(), losses_.brokenDown().value(), losses_.breakdowns(),
-                                transfer_.strongFrozenContacts()};
-        mine = rest[n - 1 - walls];
-    }
-    double all = 0;
-    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
-    return all;
 }
 
 }  // namespace him

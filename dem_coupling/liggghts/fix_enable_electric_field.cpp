@@ -23,9 +23,9 @@ namespace him {
 
 namespace {
 
-constexpr const char* knownKeywords =
-    "field_cutoff_radius, id, particle_group, use_without_cfd_coupling, enable_collision_charge_transfer, charge_transfer_cutoff, "
-    "limit_field_force, field_force_limit_factor";
+constexpr const char* knownKeywords = "field_cutoff_radius, id, particle_group, use_without_cfd_coupling, "
+                                      "enable_collision_charge_transfer, charge_transfer_cutoff, "
+                                      "limit_field_force, field_force_limit_factor";
 
 std::string exact(double value)
 {
@@ -59,16 +59,13 @@ EnableElectricFieldOptions readEnableElectricFieldOptions(const std::vector<std:
             options.charging = reader.oneOf(keyword, {"no", "yes"}) == 1;
         } else if (keyword == "charge_transfer_cutoff") {
             options.separation = reader.positive(keyword, "[m]");
-        } else if (keyword == "limit_field_force") {
-            options.limiter.active = reader.oneOf(keyword, {"no", "yes"}) == 1;
-        } else if (keyword == "field_force_limit_factor") {
-            options.limiter.factor = readLimitFactor(reader, complaints);
-        } else {
+        } else if (!readLimiter(keyword, reader, options.limiter, complaints)) {
             throw std::invalid_argument("unknown keyword '" + keyword + "'; known: " + knownKeywords);
         }
     }
     if (!given.count("field_cutoff_radius")) {
-        complaints.add("field_cutoff_radius", "it is obligatory: the distance [m] up to which the near field is computed from the particles");
+        complaints.add("field_cutoff_radius",
+                       "it is obligatory: the distance [m] up to which the near field is computed from the particles");
     }
     if (given.count("charge_transfer_cutoff") && !options.charging) {
         complaints.add("charge_transfer_cutoff", "it says nothing without 'enable_collision_charge_transfer yes'");
@@ -84,7 +81,8 @@ FixEnableElectricField* FixEnableElectricField::find(LAMMPS_NS::LAMMPS* lmp)
     return static_cast<FixEnableElectricField*>(lmp->modify->find_fix_style("enable_electric_field", 0));
 }
 
-FixEnableElectricField::FixEnableElectricField(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg) : Fix(liggghts, narg, arg)
+FixEnableElectricField::FixEnableElectricField(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg)
+    : Fix(liggghts, narg, arg)
 {
     if (find(lmp)) {
         error->fix_error(FLERR, this, "there can only be one enable_electric_field in the whole simulation");
@@ -93,7 +91,9 @@ FixEnableElectricField::FixEnableElectricField(LAMMPS_NS::LAMMPS* liggghts, int 
         error->fix_error(FLERR, this, "works in 'units si' only");
     }
     if (!atom->q_flag) {
-        error->fix_error(FLERR, this, "needs charged spheres ('charged yes' on its page): write 'atom_style hybrid granular charge'");
+        error->fix_error(
+            FLERR, this,
+            "needs charged spheres ('charged yes' on its page): write 'atom_style hybrid granular charge'");
     }
     try {
         options_ = readEnableElectricFieldOptions(std::vector<std::string>(arg + 3, arg + narg));
@@ -107,7 +107,8 @@ FixEnableElectricField::FixEnableElectricField(LAMMPS_NS::LAMMPS* liggghts, int 
     }
     if (!options_.withoutCoupling && !FixChargeGranContact::hosted) {
         error->fix_error(FLERR, this,
-                         "'use_without_cfd_coupling no' demands the field of a mesh. Run the script with himFoam, or write 'use_without_cfd_coupling yes' "
+                         "'use_without_cfd_coupling no' demands the field of a mesh. Run the script with himFoam, or "
+                         "write 'use_without_cfd_coupling yes' "
                          "for the near field alone");
     }
 }
@@ -117,14 +118,19 @@ std::string FixEnableElectricField::description() const
     std::ostringstream text;
     text << "enable_electric_field " << name_ << ": ";
     if (FixChargeGranContact::hosted) {
-        text << "the case's field method gives the field; with him its nearCutoff has to be field_cutoff_radius, " << options_.cutoff << " m\n";
+        text << "the case's field method gives the field; with him its nearCutoff has to be field_cutoff_radius, "
+             << options_.cutoff << " m\n";
     } else {
-        text << "near field of pairs up to " << options_.cutoff << " m alone, without a mesh (himFoam has the far field)\n";
+        text << "near field of pairs up to " << options_.cutoff
+             << " m alone, without a mesh (himFoam has the far field)\n";
     }
     if (options_.charging) {
-        text << "    Charge transfer by work functions, Gamma_ij = (phi_j - phi_i)/(delta e), delta = " << options_.separation
-             << " m.\n    The sign of (phi_i - phi_j) on the command's page is reversed: here, as in nature, the body of the higher work\n"
-                "    function charges negatively. Give the page's numbers as they are. kappa 1, contact area hertz; mesh walls are\n"
+        text << "    Charge transfer by work functions, Gamma_ij = (phi_j - phi_i)/(delta e), delta = "
+             << options_.separation
+             << " m.\n    The sign of (phi_i - phi_j) on the command's page is reversed: here, as in nature, the body "
+                "of the higher work\n"
+                "    function charges negatively. Give the page's numbers as they are. kappa 1, contact area hertz; "
+                "mesh walls are\n"
                 "    grounded conductors, primitive walls take no charge.\n";
     }
     if (options_.limiter.active) {
@@ -163,13 +169,16 @@ void FixEnableElectricField::add(const std::vector<std::string>& words)
 void FixEnableElectricField::makeCharging()
 {
     if (FixChargeGranContact::find(lmp)) {
-        error->fix_error(FLERR, this, "there is already a fix charge/gran/contact. Remove it, or write 'enable_collision_charge_transfer no'");
+        error->fix_error(
+            FLERR, this,
+            "there is already a fix charge/gran/contact. Remove it, or write 'enable_collision_charge_transfer no'");
     }
     auto* property = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
         modify->find_fix_property("workFunction", "property/global", "peratomtype", atom->ntypes, 0, style, false));
     if (!property) {
         error->fix_error(FLERR, this,
-                         "charge transfer needs the work function of every type: write 'fix <id> all property/global workFunction peratomtype <J> <J> ...' "
+                         "charge transfer needs the work function of every type: write 'fix <id> all property/global "
+                         "workFunction peratomtype <J> <J> ...' "
                          "above this line");
     }
     const std::string charging = std::string(id) + "Charging";
@@ -177,7 +186,8 @@ void FixEnableElectricField::makeCharging()
     for (int type = 1; type <= atom->ntypes; ++type) {
         words.insert(words.end(), {"workFunction", std::to_string(type), exact(property->compute_vector(type - 1))});
         for (int other = type; other <= atom->ntypes; ++other) {
-            words.insert(words.end(), {"pair", std::to_string(type), std::to_string(other), "workFunctions", "kappa", "1"});
+            words.insert(words.end(),
+                         {"pair", std::to_string(type), std::to_string(other), "workFunctions", "kappa", "1"});
         }
     }
     add(words);
@@ -192,7 +202,8 @@ void FixEnableElectricField::makeField()
         words.insert(words.end(), {"efield/him", "method", "directTruncation", "cutoff", exact(options_.cutoff)});
     }
     if (options_.limiter.active) {
-        words.insert(words.end(), {"limit_field_force", "yes", "field_force_limit_factor", exact(options_.limiter.factor)});
+        words.insert(words.end(),
+                     {"limit_field_force", "yes", "field_force_limit_factor", exact(options_.limiter.factor)});
     }
     add(words);
 }

@@ -29,10 +29,25 @@ inline double readLimitFactor(WordReader& words, Complaints& complaints)
 {
     const double factor = words.number("field_force_limit_factor");
     if (!(factor > 0 && factor <= 1)) {
-        complaints.add("field_force_limit_factor", "found " + words.last() + ", but a number above 0 and up to 1 is expected; 0 "
-                                                   "would take all forces of the field away");
+        complaints.add("field_force_limit_factor", "found " + words.last()
+                                                       + ", but a number above 0 and up to 1 is expected; 0 "
+                                                         "would take all forces of the field away");
     }
     return factor;
+}
+
+/// Takes `limit_field_force` and `field_force_limit_factor` with the word behind them; false for any other keyword.
+inline bool readLimiter(const std::string& keyword, WordReader& words, ForceLimiter& limiter, Complaints& complaints)
+{
+    if (keyword == "limit_field_force") {
+        limiter.active = words.oneOf(keyword, {"no", "yes"}) == 1;
+        return true;
+    }
+    if (keyword == "field_force_limit_factor") {
+        limiter.factor = readLimitFactor(words, complaints);
+        return true;
+    }
+    return false;
 }
 
 }  // namespace him

@@ -27,70 +27,10 @@ constexpr double samePlace = 1e-6;
 /// A fit whose gradient at the rim of the cell magnifies errors of the values more than this is refused.
 constexpr double mostAmplification = 30;
 
-constexpr int coefficientsOf(int order)
-{
-    return (order + 1) * (order + 2) * (order + 3) / 6 - 1;
-}
-
 /// Least number of points for an order: about three per coefficient for cubic, as the layers of a hexahedral mesh give.
 int fewestPoints(int order)
 {
     return order == 4 ? 100 : 50;
-}
-
-/// Monomials of degree 1 to `order` at xi: x y z, xx xy xz yy yz zz, xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz, ...
-void monomials(const Vector3& xi, int order, double* out)
-{
-    int n = 0;
-    for (int degree = 1; degree <= order; ++degree) {
-        for (int a = degree; a >= 0; --a) {
-            for (int b = degree - a; b >= 0; --b) {
-                const int c = degree - a - b;
-                double value = 1;
-                for (int i = 0; i < a; ++i) {
-                    value *= xi[0];
-                }
-                for (int i = 0; i < b; ++i) {
-                    value *= xi[1];
-                }
-                for (int i = 0; i < c; ++i) {
-                    value *= xi[2];
-                }
-                out[n++] = value;
-            }
-        }
-    }
-}
-
-/// Derivatives of the monomials along `direction` at xi.
-void derivatives(const Vector3& xi, const Vector3& direction, int order, double* out)
-{
-    const auto power = [](double base, int exponent) {
-        double value = 1;
-        for (int i = 0; i < exponent; ++i) {
-            value *= base;
-        }
-        return value;
-    };
-    int n = 0;
-    for (int degree = 1; degree <= order; ++degree) {
-        for (int a = degree; a >= 0; --a) {
-            for (int b = degree - a; b >= 0; --b) {
-                const int c = degree - a - b;
-                double value = 0;
-                if (a > 0) {
-                    value += direction[0] * a * power(xi[0], a - 1) * power(xi[1], b) * power(xi[2], c);
-                }
-                if (b > 0) {
-                    value += direction[1] * b * power(xi[0], a) * power(xi[1], b - 1) * power(xi[2], c);
-                }
-                if (c > 0) {
-                    value += direction[2] * c * power(xi[0], a) * power(xi[1], b) * power(xi[2], c - 1);
-                }
-                out[n++] = value;
-            }
-        }
-    }
 }
 
 double weightOf(double squaredDistance, int order)
@@ -112,7 +52,7 @@ std::uint64_t hashOf(const std::vector<std::int64_t>& key)
 HIM_CLONES void accumulate(const double* matrix, int padded, const double* values, int points, double* sums)
 {
     using Block = double __attribute__((vector_size(64), aligned(8)));
-    Block total[(PolynomialGather::mostCoefficients + 6) / 8] = {};
+    Block total[LocalPolynomial::paddedCoefficients / 8] = {};
     const int blocks = padded / 8;
     for (int p = 0; p < points; ++p) {
         const auto* row = reinterpret_cast<const Block*>(matrix + static_cast<std::ptrdiff_t>(p) * padded);
@@ -136,10 +76,15 @@ PolynomialGather::PolynomialGather(const LocalMesh& mesh, const SurroundingsTabl
 {
 }
 
+bool PolynomialGather::givesValue(std::int32_t face) const
+{
+    return mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::insulated;
+}
+
 bool PolynomialGather::mirrors(Index face) const
 {
-    return mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::chargedWall && walls_.mirrorsExactly(face)
-           && mesh_.boundary.value[face] == 0;
+    return mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::chargedWall
+           && walls_.mirrorsExactly(face) && mesh_.boundary.value[face] == 0;
 }
 
 /// Whether a charged wall stands between two neighbours: both have a side of it at the same place.
@@ -202,7 +147,8 @@ void PolynomialGather::collect(Index cell, Stencil& stencil)
     add({static_cast<std::int32_t>(cell), 1, unmirrored, mesh_.centreOf(cell)});
     std::size_t begin = 0;
     std::size_t faces = 0;
-    for (int layer = 1; layer <= layers(order_) && nodes_.size() - 1 + faces < static_cast<std::size_t>(fewestPoints(order_));
+    for (int layer = 1;
+         layer <= layers(order_) && nodes_.size() - 1 + faces < static_cast<std::size_t>(fewestPoints(order_));
          ++layer) {
         const std::size_t end = nodes_.size();
         for (; begin < end; ++begin) {
@@ -274,7 +220,8 @@ Eigen::Matrix3d PolynomialGather::scaleOf(Index cell) const
     const double h = cellSize(mesh_, cell);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moment);
     // Round-off must not tell equal cells apart: the scale is rounded like the places.
-    Eigen::Matrix3d scale = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1e-12 * h * h).cwiseSqrt().cwiseInverse().asDiagonal()
+    Eigen::Matrix3d scale = eigen.eigenvectors()
+                            * eigen.eigenvalues().cwiseMax(1e-12 * h * h).cwiseSqrt().cwiseInverse().asDiagonal()
                             * eigen.eigenvectors().transpose();
     scale = ((scale * h / rounding).array().round() * (rounding / h)).matrix();
     return scale;
@@ -293,15 +240,17 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
         std::int32_t sign;
     };
     std::vector<FitPoint> points;
-    const auto rounded = [&](const Vector3& x, int axis) { return std::llround((x[axis] - centre[axis]) / (h * rounding)); };
+    const auto rounded = [&](const Vector3& x, int axis) {
+        return std::llround((x[axis] - centre[axis]) / (h * rounding));
+    };
     for (std::size_t n = 0; n < stencil.cells.size(); ++n) {
         const Vector3& x = nodes_[n + 1].place;
-        points.push_back({{0, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, stencil.cells[n].cell, stencil.cells[n].sign});
+        points.push_back(
+            {{0, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, stencil.cells[n].cell, stencil.cells[n].sign});
     }
     for (const std::int32_t face : stencil.faces) {
         const Vector3 x = mesh_.boundary.centre.row(face).matrix().transpose();
-        const bool value = mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::insulated;
-        points.push_back({{value ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face, 1});
+        points.push_back({{givesValue(face) ? 1 : 2, rounded(x, 0), rounded(x, 1), rounded(x, 2)}, face, 1});
     }
     std::sort(points.begin(), points.end(), [](const FitPoint& a, const FitPoint& b) { return a.key < b.key; });
     stencil.cells.clear();
@@ -340,7 +289,7 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
         }
         Eigen::MatrixXd weighted(rows, columns);
         Eigen::VectorXd weights(rows);
-        std::array<double, mostCoefficients> row{};
+        std::array<double, LocalPolynomial::mostCoefficients> row{};
         for (Index n = 0; n < rows; ++n) {
             const FitPoint& point = points[static_cast<std::size_t>(n)];
             const Vector3 step = Vector3(static_cast<double>(point.key[1]), static_cast<double>(point.key[2]),
@@ -407,7 +356,8 @@ PolynomialGather::Stencil PolynomialGather::make(Index cell)
     return stencil;
 }
 
-void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars& faceValues, Polynomial& polynomial)
+void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars& faceValues,
+                           LocalPolynomial& polynomial)
 {
     const Stencil& stencil = stencilOf(cell);
     const Fit& fit = *stencil.fit;
@@ -426,8 +376,7 @@ void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars&
     }
     const double h = stencil.faces.empty() ? 0 : cellSize(mesh_, cell);
     for (const std::int32_t face : stencil.faces) {
-        const bool given = mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::insulated;
-        *value++ = given ? faceValues[face] - polynomial.value : h * faceValues[face];
+        *value++ = givesValue(face) ? faceValues[face] - polynomial.value : h * faceValues[face];
     }
     accumulate(fit.matrix.data(), fit.padded, values_.data(), static_cast<int>(points), polynomial.coefficients.data());
 }
@@ -443,48 +392,9 @@ double PolynomialGather::laplacian(Index cell, const Scalars& cellValues, const 
     }
     const double h = stencil.faces.empty() ? 0 : cellSize(mesh_, cell);
     for (const std::int32_t face : stencil.faces) {
-        const bool conductor = mesh_.boundary.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor;
-        sum += *weight++ * (conductor ? faceValues[face] - value : h * faceValues[face]);
+        sum += *weight++ * (givesValue(face) ? faceValues[face] - value : h * faceValues[face]);
     }
     return sum;
-}
-
-/// Written out, because it is called once per particle. The parts of equal degree d give their value by Euler's theorem,
-/// p_d = xi . grad p_d / d.
-void PolynomialGather::Polynomial::evaluate(const Vector3& place, double& valueThere, Vector3& gradient) const
-{
-    const Vector3 xi = scale * (place - centre);
-    const double x = xi[0], y = xi[1], z = xi[2];
-    const double* c = coefficients.data();
-    Vector3 g(c[0], c[1], c[2]);
-    valueThere = value + xi.dot(g);
-    const auto add = [&](int degree, const Vector3& part) {
-        g += part;
-        valueThere += xi.dot(part) / degree;
-    };
-    if (order >= 2) {
-        add(2, Vector3(2 * c[3] * x + c[4] * y + c[5] * z, c[4] * x + 2 * c[6] * y + c[7] * z,
-                       c[5] * x + c[7] * y + 2 * c[8] * z));
-    }
-    if (order >= 3) {
-        // 9 xxx, 10 xxy, 11 xxz, 12 xyy, 13 xyz, 14 xzz, 15 yyy, 16 yyz, 17 yzz, 18 zzz
-        const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
-        add(3, Vector3(3 * c[9] * xx + 2 * c[10] * xy + 2 * c[11] * xz + c[12] * yy + c[13] * yz + c[14] * zz,
-                       c[10] * xx + 2 * c[12] * xy + c[13] * xz + 3 * c[15] * yy + 2 * c[16] * yz + c[17] * zz,
-                       c[11] * xx + c[13] * xy + 2 * c[14] * xz + c[16] * yy + 2 * c[17] * yz + 3 * c[18] * zz));
-        if (order >= 4) {
-            // 19 xxxx, 20 xxxy, 21 xxxz, 22 xxyy, 23 xxyz, 24 xxzz, 25 xyyy, 26 xyyz, 27 xyzz, 28 xzzz,
-            // 29 yyyy, 30 yyyz, 31 yyzz, 32 yzzz, 33 zzzz
-            add(4, Vector3(xx * (4 * c[19] * x + 3 * c[20] * y + 3 * c[21] * z)
-                               + 2 * x * (c[22] * yy + c[23] * yz + c[24] * zz) + yy * (c[25] * y + c[26] * z)
-                               + zz * (c[27] * y + c[28] * z),
-                           xx * (c[20] * x + 2 * c[22] * y + c[23] * z) + x * (3 * c[25] * yy + 2 * c[26] * yz + c[27] * zz)
-                               + yy * (4 * c[29] * y + 3 * c[30] * z) + zz * (2 * c[31] * y + c[32] * z),
-                           xx * (c[21] * x + c[23] * y + 2 * c[24] * z) + x * (c[26] * yy + 2 * c[27] * yz + 3 * c[28] * zz)
-                               + yy * (c[30] * y + 2 * c[31] * z) + zz * (3 * c[32] * y + 4 * c[33] * z)));
-        }
-    }
-    gradient = scale.transpose() * g;
 }
 
 }  // namespace him

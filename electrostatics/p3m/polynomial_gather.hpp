@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/p3m/local_polynomial.hpp"
 #include "electrostatics/p3m/surroundings.hpp"
 
 #include <array>
@@ -13,29 +14,16 @@ namespace him {
 /// Weighted least-squares polynomials through the own value of a cell, over a few layers of cells around it. Where charges
 /// are mirrored exactly in a wall without voltage, the layers go on behind it with the mirrored cells and their values,
 /// negative at a conductor; elsewhere boundary faces are points of their own: values on conductors and charged walls, normal
-/// gradients on insulated faces. No stencil goes through a charged wall. Cells whose stencils look alike share one fit, so a uniform mesh needs a handful of them.
+/// gradients on insulated faces. No stencil goes through a charged wall. Cells whose stencils look alike share one fit, so a
+/// uniform mesh needs a handful of them.
 class PolynomialGather {
 public:
-    static constexpr int mostCoefficients = 34;
-
     /// @param mesh, walls  outlive this
     /// @param order        3 or 4; where a stencil cannot carry it, the highest order that it can is taken and counted
     PolynomialGather(const LocalMesh& mesh, const SurroundingsTable& walls, int order);
 
-    /// The polynomial of one cell: values at the scaled place xi = scale (x - centre).
-    struct Polynomial {
-        Vector3 centre;
-        Eigen::Matrix3d scale;                              ///< [1/m]
-        double value = 0;                                   ///< at the centre
-        std::array<double, mostCoefficients + 6> coefficients{};  ///< of the monomials of degree 1 to 4, padded
-        int order = 0;
-
-        /// Value and gradient [per metre] at a point.
-        void evaluate(const Vector3& x, double& valueThere, Vector3& gradient) const;
-    };
-
     /// Fits the values of cells and boundary faces around an own cell.
-    void fit(Index cell, const Scalars& cellValues, const Scalars& faceValues, Polynomial& polynomial);
+    void fit(Index cell, const Scalars& cellValues, const Scalars& faceValues, LocalPolynomial& polynomial);
 
     /// Laplacian [1/m2] of the polynomial at the centre of an own cell.
     double laplacian(Index cell, const Scalars& cellValues, const Scalars& faceValues);
@@ -59,8 +47,8 @@ private:
     struct Fit {
         std::vector<std::int64_t> key;
         int order = 0;
-        int padded = 0;              ///< coefficients per point, with padding
-        std::vector<double> matrix;  ///< `padded` numbers per point
+        int padded = 0;                 ///< coefficients per point, with padding
+        std::vector<double> matrix;     ///< `padded` numbers per point
         std::vector<double> laplacian;  ///< one number per point [1/m2]
         Eigen::Matrix3d scale;
     };
@@ -72,6 +60,8 @@ private:
     const Stencil& stencilOf(Index cell);
     Stencil make(Index cell);
     void collect(Index cell, Stencil& stencil);
+    /// Whether a boundary face is a point with a value; else it gives the normal gradient.
+    bool givesValue(std::int32_t face) const;
     /// Whether the layers of a stencil go on behind this boundary face.
     bool mirrors(Index face) const;
     bool wallBetween(std::int32_t cell, std::int32_t neighbour) const;

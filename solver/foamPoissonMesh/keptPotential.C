@@ -51,9 +51,11 @@ void foamPoissonMesh::restore(const Kept* kept)
     chargeDensity_.correctBoundaryConditions();
     electricField_.primitiveFieldRef() = state.electricField;
     electricField_.correctBoundaryConditions();
-    if (!state.hasPart) {
-        part_.reset();  // made anew by the next who asks
-    } else {
+    if (part_ && !state.hasPart) {
+        // Nobody but the one who made it knows of this part: it serves as its start next time and is not written.
+        part_->potential.writeOpt() = IOobject::NO_WRITE;
+        part_->correction.writeOpt() = IOobject::NO_WRITE;
+    } else if (state.hasPart) {
         // Boundary values of the mesh part are given anew with every solve.
         part_->potential.primitiveFieldRef() = state.potential;
         part_->correction.primitiveFieldRef() = state.correction;

@@ -183,15 +183,5 @@ int main(int argc, char* argv[])
     Foam::argList::addOption("output", "file", "The same lines plus Ex,Ey,Ez,V");
     Foam::argList::noCheckProcessorDirectories();
     Foam::argList::noFunctionObjects();
-    Foam::argList args(argc, argv);
-    if (!args.checkRootCase()) {
-        Foam::FatalError.exit();
-    }
-    const MPI_Comm communicator = him::openSession(args.executable());
-    try {
-        him::run(args, communicator);
-    } catch (const std::exception& failure) {
-        him::stopOnFailure(failure.what(), communicator);
-    }
-    return 0;
+    return him::runSession(argc, argv, him::run);
 }

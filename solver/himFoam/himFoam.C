@@ -112,6 +112,18 @@ void run(scene& s, MPI_Comm communicator)
     Foam::Info << "End\n" << Foam::endl;
 }
 
+void runCase(const Foam::argList& args, MPI_Comm communicator)
+{
+    scene s;
+    openCase(args, s, communicator);
+    openDem(s, communicator);
+    if (args.found("dry-run")) {
+        Foam::Info << "Dry run: the case is fine; stopping before the first step.\n" << Foam::endl;
+    } else {
+        run(s, communicator);
+    }
+}
+
 }  // namespace
 
 }  // namespace him
@@ -124,22 +136,5 @@ int main(int argc, char* argv[])
     Foam::argList::addBoolOption("dry-run", "Check the whole case and stop before the first step");
     // A case without a mesh runs in parallel too; openMesh checks the processor folders of the others.
     Foam::argList::noCheckProcessorDirectories();
-    Foam::argList args(argc, argv);
-    if (!args.checkRootCase()) {
-        Foam::FatalError.exit();
-    }
-    const MPI_Comm communicator = him::openSession(args.executable());
-    try {
-        him::scene scene;
-        him::openCase(args, scene, communicator);
-        him::openDem(scene, communicator);
-        if (args.found("dry-run")) {
-            Foam::Info << "Dry run: the case is fine; stopping before the first step.\n" << Foam::endl;
-        } else {
-            him::run(scene, communicator);
-        }
-    } catch (const std::exception& failure) {
-        him::stopOnFailure(failure.what(), communicator);
-    }
-    return 0;
+    return him::runSession(argc, argv, him::runCase);
 }

@@ -87,8 +87,14 @@ std::string accuracyText(const FieldSettings& field)
         text << "WARNING: nothing is known of the error of these settings. Leave out fieldMethod and the entries of "
                 "p3mCoeffs to let accuracy choose.";
     } else if (field.method == "pairwiseSum") {
-        text << "pairwiseSum with images is the cheapest for so few particles, "
-             << (expected > 0 ? "expected at most " + shown(expected) : std::string("exact here")) << '.';
+        text << "pairwiseSum " << (field.pairwiseSum.images ? "with images" : "without images") << ", "
+             << (expected > 0               ? "expected at most " + shown(expected)
+                 : field.pairwiseSum.images ? std::string("exact here")
+                                            : std::string("exact where there is no conductor"))
+             << '.';
+        if (expected > field.accuracy) {
+            text << " WARNING: fieldMethod wins over accuracy and gives less; leave it out.";
+        }
     } else {
         text << "expected at most " << expected << " between plane walls, about " << std::max(expected, curvedWallError)
              << " between curved ones.";

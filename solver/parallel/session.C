@@ -69,6 +69,21 @@ MPI_Comm openSession(const std::string& program)
     return MPI_COMM_SELF;
 }
 
+int runSession(int argc, char* argv[], const std::function<void(const Foam::argList&, MPI_Comm)>& run)
+{
+    Foam::argList args(argc, argv);
+    if (!args.checkRootCase()) {
+        Foam::FatalError.exit();
+    }
+    const MPI_Comm communicator = openSession(args.executable());
+    try {
+        run(args, communicator);
+    } catch (const std::exception& failure) {
+        stopOnFailure(failure.what(), communicator);
+    }
+    return 0;
+}
+
 void leave(int exitCode)
 {
     std::cout.flush();

@@ -94,6 +94,12 @@ class Accuracy(unittest.TestCase):
             result = case.run("-dry-run")
             self.assertEqual(result.code, 1, result.text)
             self.assertIn("its error here is up to 0.015 (parallel walls)", " ".join(result.text.split()))
+            case.replace(ELECTROSTATIC, "accuracy 0.01;", "accuracy 0.01; fieldMethod pairwiseSum; pairwiseSumCoeffs { images yes; }")
+            result = case.run("-dry-run")
+            self.assertEqual(result.code, 0, result.text)
+            self.assertIn("expected at most 0.015. WARNING: fieldMethod wins over accuracy", result.text)
+            case.replace(ELECTROSTATIC, "images yes;", "images no;")
+            self.assertIn("without images, exact where there is no conductor", case.run("-dry-run").text)
 
     def test_entries_of_the_method_win_and_are_warned_of(self):
         _, text = self.run_with("accuracy 0.014; p3mCoeffs { gather cubic; }", "-dry-run")

@@ -69,6 +69,14 @@ class WallCharges(unittest.TestCase):
         anyone = self.ran(bed(self.folder + "/any", target="insulating"))
         self.assertEqual(named["wallFaces"], anyone["wallFaces"])
 
+    def test_a_wall_that_the_script_lets_charge_keeps_its_charge_where_the_case_says_so(self):
+        silent = self.ran(bed(self.folder + "/silent"))
+        case = bed(self.folder + "/named")
+        case.replace("DEM/in.cube", "kappa 20.0 area hertz", "kappa 20.0 area hertz wall floor conductor")
+        named = self.ran(case)
+        self.assertNotEqual(silent["wallFaces"], 0)
+        self.assertEqual(named["wallFaces"], silent["wallFaces"])
+
     def test_any_number_of_ranks_gives_the_same_faces(self):
         for method, tolerance in (("him", 1e-9), ("p3m", 1e-9)):
             serial_case = bed("%s/%s1" % (self.folder, method), method)

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The walls that fix charge/gran/contact charges at, and what each keeps.
+#include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
+
+#include "atom.h"
+#include "error.h"
+
+#include <algorithm>
+
+namespace him {
+
+int FixChargeGranContact::wallRow(const LAMMPS_NS::Fix* wall) const
+{
+    for (std::size_t row = 0; row < walls_.size(); ++row) {
+        if (walls_[row].fix == wall) {
+            return static_cast<int>(row);
+        }
+    }
+    error->one(FLERR, "a wall touches particles that fix charge/gran/contact does not know");
+    return -1;
+}
+
+void FixChargeGranContact::refreshWalls()
+{
+    std::vector<ListedWall> now = listWalls(lmp);
+    std::vector<CompensatedSum> given(now.size());
+    std::vector<int> types;
+    std::vector<char> transfers, keeps;
+    for (std::size_t row = 0; row < now.size(); ++row) {
+        const DemWall& wall = now[row].wall;
+        types.push_back(wall.type);
+        const auto role =
+            std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == wall.name; });
+        transfers.push_back(role == roles_.end() || role->transfersCharge);
+        keeps.push_back(role != roles_.end() && role->keepsCharge);
+        for (std::size_t old = 0; old < walls_.size(); ++old) {
+            if (walls_[old].wall.name == wall.name) {
+                given[row] = transfer_.toWall()[old];
+            }
+        }
+    }
+    if (!restartedToWall_.empty() && restartedToWall_.size() == now.size()) {
+        std::transform(restartedToWall_.begin(), restartedToWall_.end(), given.begin(),
+                       [](double charge) { return CompensatedSum(charge); });
+        restartedToWall_.clear();
+    }
+    walls_ = std::move(now);
+    transfer_.setWalls(std::move(types), std::move(transfers), std::move(keeps));
+    transfer_.toWall() = std::move(given);
+    size_vector = 1 + static_cast<int>(walls_.size()) + 4;
+}
+
+void FixChargeGranContact::setWallRoles(const std::vector<WallRole>& roles)
+{
+    // What the script says about a wall stands; the case's word joins it.
+    for (const WallRole& role : roles) {
+        const auto own =
+            std::find_if(roles_.begin(), roles_.end(), [&](const WallRole& r) { return r.name == role.name; });
+        if (own == roles_.end()) {
+            roles_.push_back(role);
+        } else {
+            own->transfersCharge = own->transfersCharge && role.transfersCharge;
+            own->keepsCharge = own->keepsCharge || role.keepsCharge;
+        }
+    }
+    refreshWalls();
+}
+
+void FixChargeGranContact::keepWallCharges()
+{
+    for (const ChargeTransfer::WallGain& gain : transfer_.wallGains()) {
+        const double* centre = atom->x[gain.particle];
+        const double radius = atom->radius[gain.particle];
+        const Vector3 point(centre[0] + radius * gain.normal[0], centre[1] + radius * gain.normal[1],
+                            centre[2] + radius * gain.normal[2]);
+        wallCharges_.push_back({point, gain.wall, gain.charge});
+    }
+}
+
+void FixChargeGranContact::takeWallCharges(std::vector<WallCharge>& out)
+{
+    out.clear();
+    out.swap(wallCharges_);
+}
+
+}  // namespace him
