@@ -78,6 +78,18 @@ double impactAreaOnRigidFlat(double radius, double density, double youngsModulus
     return pi * radius * radius * std::pow(1.25 * pi * density * compliance, 0.4) * std::pow(normalSpeed, 0.8);
 }
 
+double rayleighTimeStep(double radius, double density, double youngsModulus, double poissonRatio)
+{
+    requirePositive("radius", radius);
+    requirePositive("density", density);
+    requirePositive("Young's modulus", youngsModulus);
+    if (!std::isgreater(poissonRatio, -1.0) || !std::islessequal(poissonRatio, 0.5)) {
+        rejectArgument("Poisson's ratio", "above -1 and at most 0.5", poissonRatio);
+    }
+    const double shearModulus = youngsModulus / (2 * (1 + poissonRatio));
+    return pi * radius * std::sqrt(density / shearModulus) / (0.1631 * poissonRatio + 0.8766);
+}
+
 double softeningCorrection(double softModulus, double realModulus)
 {
     requirePositive("softened modulus", softModulus);

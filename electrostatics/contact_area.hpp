@@ -32,6 +32,10 @@ double hertzImpactTime(double maximumOverlap, double normalSpeed);
 /// Largest contact area [m2] of a sphere that hits a rigid flat (R25), area law `hertz`.
 double impactAreaOnRigidFlat(double radius, double density, double youngsModulus, double poissonRatio, double normalSpeed);
 
+/// Rayleigh time step [s] of a sphere (R13): pi r sqrt(rho/G)/(0.1631 nu + 0.8766), G = Y/(2 (1 + nu)).
+/// @param density  rho [kg/m3]
+double rayleighTimeStep(double radius, double density, double youngsModulus, double poissonRatio);
+
 /// Correction a_corr [-] for softened moduli (S2.12): (Y*_soft / Y*_real)^(2/5). Right for impacts only; resting
 /// contacts would scale with the power 2/3.
 double softeningCorrection(double softModulus, double realModulus);

@@ -115,6 +115,9 @@ void FixChargeGranContact::init()
             error->fix_error(FLERR, this, ("wall " + role.name + ": the script has no such wall").c_str());
         }
     }
+    if (!hosted) {
+        checkPairs();
+    }
     prepare();
     if (!hosted && !told_) {
         tell("Contact charging, fix " + std::string(id) + ":\n" + description());

@@ -48,6 +48,10 @@ public:
     /// Switches charging on and opens the books: the charge that is there now has not been inserted.
     void handOver();
     std::string description();
+    /// Pairs of types that can touch and have neither Gamma nor `none`. Collective.
+    /// @param where   stands in front of each complaint
+    /// @param absent  count types too that neither a particle nor a wall has yet: they may be inserted
+    void complainAboutMissingPairs(const std::string& where, bool absent, Complaints& complaints) const;
     /// Gives particles that the script made their initial charge, before the first field is computed from it.
     void prepare();
     /// Sums over ranks. Collective.
@@ -81,10 +85,14 @@ public:
 private:
     /// a_corr of every pair from the real moduli and those of the script (S2.12).
     void findSoftening();
+    /// What to say when the time step is too long for the contact area to be sampled; empty when it is not. Collective.
+    std::string timeStepWarning() const;
     /// Charge of particles that are seen for the first time and bring none (initialCharge).
     void chargeNewParticles();
     void loseCharge();
     void tell(const std::string& text) const;
+    /// Refuses pairs without Gamma, and warns of those of types that are not there yet.
+    void checkPairs();
     std::size_t packRow(int row, double* buffer) const;
     void bookArrivals();
     void keepWallCharges();

@@ -2,9 +2,17 @@
 // What fix charge/gran/contact says and counts: texts, books, numbers for the script.
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 
-#include "comm.h"
+#include "electrostatics/contact_area.hpp"
 
+#include "atom.h"
+#include "comm.h"
+#include "fix_property_global.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <sstream>
 
 namespace him {
@@ -32,7 +40,35 @@ std::string FixChargeGranContact::description()
             text << "    wall " << role.name << ": no charge transfer\n";
         }
     }
-    text << initial_.describe();
+    text << initial_.describe() << timeStepWarning();
+    return text.str();
+}
+
+std::string FixChargeGranContact::timeStepWarning() const
+{
+    // Measured by cases/singleContact: within 0.5 % of the law at 20 %, 1.3 % off at 30 % and 2.7 % at 40 %.
+    constexpr double largestShare = 0.201;
+    auto* young = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
+        modify->find_fix_property("youngsModulus", "property/global", "peratomtype", atom->ntypes, 0, style));
+    auto* poisson = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
+        modify->find_fix_property("poissonsRatio", "property/global", "peratomtype", atom->ntypes, 0, style));
+    double shortest = std::numeric_limits<double>::max();
+    for (int i = 0; i < atom->nlocal; ++i) {
+        const int type = atom->type[i] - 1;
+        shortest = std::min(shortest, rayleighTimeStep(atom->radius[i], atom->density[i], young->compute_vector(type),
+                                                       poisson->compute_vector(type)));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPI_DOUBLE, MPI_MIN, world);
+    if (update->dt <= largestShare * shortest) {
+        return {};
+    }
+    std::ostringstream text;
+    text.precision(3);
+    text << "    WARNING: the time step, " << update->dt << " s, is " << 100 * update->dt / shortest
+         << " % of the shortest Rayleigh step (R13) of the particles, " << shortest
+         << " s. Above 20 % the largest overlap falls between two steps, and contacts move too little charge (1 to 3 % "
+            "at 30 to 40 %). Use at most "
+         << 0.2 * shortest << " s\n";
     return text.str();
 }
 

@@ -6,6 +6,7 @@
 #include "error.h"
 
 #include <algorithm>
+#include <set>
 
 namespace him {
 
@@ -48,6 +49,42 @@ void FixChargeGranContact::refreshWalls()
     transfer_.setWalls(std::move(types), std::move(transfers), std::move(keeps));
     transfer_.toWall() = std::move(given);
     size_vector = 1 + static_cast<int>(walls_.size()) + 4;
+}
+
+void FixChargeGranContact::complainAboutMissingPairs(const std::string& where, bool absent,
+                                                     Complaints& complaints) const
+{
+    std::set<int> wallTypes, particleTypes;
+    for (const ListedWall& wall : walls_) {
+        if (wall.wall.chargingModel) {
+            wallTypes.insert(wall.wall.type);
+        }
+    }
+    std::vector<int> present(static_cast<std::size_t>(atom->ntypes) + 1, 0);
+    for (int i = 0; i < atom->nlocal; ++i) {
+        present[static_cast<std::size_t>(atom->type[i])] = 1;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, present.data(), static_cast<int>(present.size()), MPI_INT, MPI_MAX, world);
+    for (int type = 1; type <= atom->ntypes; ++type) {
+        if (present[static_cast<std::size_t>(type)] || (absent && !wallTypes.count(type))) {
+            particleTypes.insert(type);
+        }
+    }
+    transfer_.pairs().complainAboutMissing({particleTypes.begin(), particleTypes.end()},
+                                           {wallTypes.begin(), wallTypes.end()}, where, complaints);
+}
+
+void FixChargeGranContact::checkPairs()
+{
+    Complaints missing;
+    complainAboutMissingPairs("types", false, missing);
+    if (!missing.none()) {
+        error->fix_error(FLERR, this, missing.text().c_str());
+    }
+    complainAboutMissingPairs("types", true, missing);
+    if (!missing.none() && !told_) {
+        tell("WARNING: no charge will move between these, should such particles be inserted:\n" + missing.text());
+    }
 }
 
 void FixChargeGranContact::setWallRoles(const std::vector<WallRole>& roles)

@@ -11,7 +11,7 @@ namespace him {
 
 /// fix ID group efield/him method pairwiseSum|directTruncation keyword value ...
 ///
-/// The electric field for scenes without a host: computes it from all charges by a FieldMethod that needs no mesh, after every
+/// The electric field for scenes without a host: computes it from all charges by a FieldMethod that needs no mesh, every
 /// `every` steps, holds it as couple/cfd/efield does, and hands the field's settings to fix charge/gran/contact. See
 /// doc/liggghts_him.md.
 class FixEfieldHim : public FixCoupleCfdEfield {
@@ -22,6 +22,8 @@ public:
     int setmask() override;
     void init() override;
     void setup(int flag) override;
+    /// With `every 1` the field of the positions at which its force acts, else the held one.
+    void post_force(int flag) override;
     void end_of_step() override;
     double compute_scalar() override { return energy_; }  ///< electrostatic energy at the last update [J]
     /// [0] largest field [V/m], [1] pairs, of the last update; [2] particles and steps whose force was limited

@@ -21,7 +21,6 @@
 #include <cstdio>
 #include <cstring>
 #include <numeric>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <unistd.h>
@@ -178,7 +177,7 @@ Complaints LiggghtsDem::check() const
     }
     if (charging_) {
         checkContactModels(complaints);
-        checkPairs(complaints);
+        charging_->complainAboutMissingPairs(script_ + ": fix " + charging_->id, true, complaints);
     }
     return complaints;
 }
@@ -193,31 +192,6 @@ void LiggghtsDem::checkContactModels(Complaints& complaints) const
             "'cohesion charge/sjkr') to pair_style gran. Known: "
                 + knownContactModels() + ".");
     }
-}
-
-void LiggghtsDem::checkPairs(Complaints& complaints) const
-{
-    std::set<int> wallTypes, particleTypes;
-    for (const DemWall& wall : walls_) {
-        if (wall.chargingModel) {
-            wallTypes.insert(wall.type);
-        }
-    }
-    const LAMMPS_NS::Atom& atom = *lmp_->atom;
-    std::vector<int> present(atom.ntypes + 1, 0);
-    for (int i = 0; i < atom.nlocal; ++i) {
-        present[atom.type[i]] = 1;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, present.data(), static_cast<int>(present.size()), MPI_INT, MPI_MAX, communicator_);
-    for (int type = 1; type <= atom.ntypes; ++type) {
-        // A type that no wall has may be inserted later.
-        if (present[type] || !wallTypes.count(type)) {
-            particleTypes.insert(type);
-        }
-    }
-    charging_->transfer().pairs().complainAboutMissing({particleTypes.begin(), particleTypes.end()},
-                                                       {wallTypes.begin(), wallTypes.end()},
-                                                       script_ + ": fix " + charging_->id, complaints);
 }
 
 // ---------------------------------------------------------------------- settings

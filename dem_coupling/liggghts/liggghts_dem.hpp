@@ -58,7 +58,6 @@ private:
 
     void command(const std::string& line);
     void checkContactModels(Complaints& complaints) const;
-    void checkPairs(Complaints& complaints) const;
 
     std::string script_;
     MPI_Comm communicator_;

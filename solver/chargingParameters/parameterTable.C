@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chargingParameters/parameterTable.H"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -125,17 +126,18 @@ std::string withBands(const std::string& name, long i, long j, const Estimate& l
            + "# most:  " + pairWords(i, j, strongest, efficiency.maximum) + "\n";
 }
 
-std::string entryOf(const namedMeasurement& m, const ChargingParameters& p)
+/// R23 defines its kappa_c for charges that are frozen within a contact, and there is no other form of it.
+bool needsFrozen(const ChargingParameters& p)
 {
-    if (p.transferLimit && p.efficiencyUpdated) {
-        return withBands(m.name, m.typeI, m.typeJ, *p.transferLimit, *p.efficiencyUpdated);
-    }
-    if (p.transferLimit && p.efficiencyFrozen) {
-        // R23 defines its kappa_c for frozen charges; R uses it as it is.
-        return withBands(m.name
-                             + " (a swap of charges when they are frozen within a contact; updated they move 43 % of "
-                               "their difference)",
-                         m.typeI, m.typeJ, *p.transferLimit, *p.efficiencyFrozen);
+    return p.transferLimit && p.efficiencyFrozen && !p.efficiencyUpdated;
+}
+
+/// @param frozen  write kappa_c for `update frozen`, which holds for all pairs of the fix
+std::string entryOf(const namedMeasurement& m, const ChargingParameters& p, bool frozen)
+{
+    const std::optional<Estimate>& efficiency = frozen ? p.efficiencyFrozen : p.efficiencyUpdated;
+    if (p.transferLimit && efficiency) {
+        return withBands(m.name, m.typeI, m.typeJ, *p.transferLimit, *efficiency);
     }
     if (p.transferLimit) {
         return "# " + m.name + ": Gamma " + shown(p.transferLimit->value)
@@ -219,10 +221,18 @@ std::string csvText(const parameterReport& report)
 std::string entriesText(const parameterReport& report)
 {
     std::string text = "# For fix ID all charge/gran/contact: put the words of the lines without # on its line.\n";
+    const bool frozen = std::any_of(report.parameters.begin(), report.parameters.end(), needsFrozen);
+    if (frozen) {
+        text += "# R23 knows its kappa_c for charges that are frozen within a contact only, so all lines are for that form:\n"
+                "update frozen\n";
+    }
     for (std::size_t n = 0; n < report.measurements.size(); ++n) {
-        text += entryOf(report.measurements[n], report.parameters[n]);
+        text += entryOf(report.measurements[n], report.parameters[n], frozen);
     }
     if (report.sizeLaw) {
+        if (frozen) {
+            text += "# The kappa_c of these sizes are for 'update updated', not for 'update frozen':\n";
+        }
         for (const sizePrediction& p : report.sizeLaw->predictions) {
             text += p.efficiency
                         ? withBands(sizeName(p), 1, 2, p.transferLimit, *p.efficiency)

@@ -67,6 +67,14 @@ TEST(ContactArea, effectiveRadiusIsSymmetricToTheLastBitAndHalvesEqualSpheres)
     EXPECT_NEAR(effectiveRadius(1e-3, 1e9), 1e-3, 1e-14);
 }
 
+TEST(ContactArea, rayleighStepIsTheTimeOfASurfaceWaveOverTheSphere)
+{
+    // R13: the wave runs the way pi r at (0.1631 nu + 0.8766) sqrt(G/rho); 69.45 us for the shaker's 12.7 mm PTFE.
+    const double wave = (0.1631 * poisson + 0.8766) * std::sqrt(modulus / (2 * (1 + poisson)) / density);
+    EXPECT_NEAR(rayleighTimeStep(radius, density, modulus, poisson) * wave / (pi * radius), 1, 1e-12);
+    EXPECT_NEAR(rayleighTimeStep(6.35e-3, density, modulus, poisson), 6.945e-5, 1e-8);
+}
+
 TEST(ContactArea, softeningCorrectionsOfTheFluidizedBed)
 {
     // S section 4.2: softened to 0.1 MPa; real 0.5 GPa, 0.46 (particle) and 74 GPa, 0.22 (wall).

@@ -48,6 +48,23 @@ class ChargingParameters(unittest.TestCase):
 
     # --- results
 
+    def test_an_efficiency_for_frozen_charges_comes_with_the_words_update_frozen(self):
+        text = (CASES / "chargingParameters/examples/similarPairNearlyEqual").read_text()
+        self.accepted(text)
+        lines = (self.case / "postProcessing/chargingParameters/entries.liggghts").read_text().splitlines()
+        words = [line for line in lines if not line.startswith("#")]
+        self.assertEqual(words[0], "update frozen")
+        self.assertRegex(words[1], r"^pair 1 1 gamma 0 kappa 3[56]\d\d")
+        # Beside it another measurement gets the form of kappa_c that belongs to `update frozen`.
+        both = WALL[:WALL.rindex("}")] + text[text.index("{", text.index("measurements")) + 1:]
+        self.accepted(both)
+        folder = self.case / "postProcessing/chargingParameters"
+        line = next(line for line in (folder / "entries.liggghts").read_text().splitlines() if line.startswith("pair 1 2"))
+        with open(folder / "parameters.csv", newline="") as file:
+            frozen = next(float(row["average"]) for row in csv.DictReader(file)
+                          if row["from"] == "ptfe" and row["quantity"] == "kappa_c frozen")
+        self.assertAlmostEqual(float(line.split()[-1]) / frozen, 1, delta=1e-5)
+
     def test_every_example_takes_its_branch_and_gives_the_numbers_of_the_paper(self):
         shutil.copy(CASES / "RunFunctions", self.case)
         shutil.copytree(CASES / "chargingParameters", self.case / "chargingParameters", ignore=shutil.ignore_patterns("postProcessing", "log.*"))

@@ -2,7 +2,7 @@
 """A wrong script gets one clear sentence, also when the output goes to a file."""
 import unittest
 
-from scene import PTFE, Run, script
+from scene import PTFE, Run, rayleigh_step, script
 
 BALL = [(0.0, 0.0, 2e-3, 0.0, 0.0, -1.0, 0.0)]
 WALL = "fix floor all wall/gran MODEL primitive type 2 zplane 0.0"
@@ -30,6 +30,30 @@ class ScriptErrors(unittest.TestCase):
         self.refused("something is missing after 'kappa'", "fix tribo all charge/gran/contact pair 1 2 gamma 1 kappa")
         self.refused("expected 'kappa' after 'gamma <V/m>', found 'pair'",
                      "fix tribo all charge/gran/contact pair 1 2 gamma 1 pair 1 1 none")
+
+    def test_pairs_without_gamma_are_listed_together(self):
+        more = [(x, 0.0, 5e-3, 0.0, 0.0, 0.0, 0.0) for x in (0.0, 0.01)]
+        run = Run(script(BALL + more, WALL, "fix tribo all charge/gran/contact pair 2 2 none", after="set atom 2 type 2\n"), 1)
+        self.assertNotEqual(run.code, 0)
+        for types in ("1 and 1", "1 and 2"):
+            self.assertIn(f"Gamma and kappa are missing for types {types}, which can touch. Add 'pair", run.out)
+        self.assertNotIn("types 2 and 2", run.out)
+
+    def test_a_type_that_is_not_there_yet_is_warned_of(self):
+        run = Run(script(BALL, "", "fix tribo all charge/gran/contact pair 1 1 none"), 1)
+        self.assertEqual(run.code, 0, run.out[-800:])
+        self.assertEqual(run.out.count("WARNING: no charge will move between these, should such particles be inserted"), 1)
+        self.assertIn("types 1 and 2", run.out)
+        run = Run(script(BALL, WALL, GOOD), 1)
+        self.assertNotIn("WARNING", run.out)
+
+    def test_a_time_step_that_misses_the_largest_overlap_is_warned_of(self):
+        for share, warned in ((0.2, False), (0.25, True)):
+            run = Run(script(BALL, WALL, GOOD, step=share * rayleigh_step(PTFE)), 1)
+            self.assertEqual(run.code, 0, run.out[-800:])
+            with self.subTest(share):
+                self.assertEqual("is 25 % of the shortest Rayleigh step" in run.out, warned)
+                self.assertEqual("WARNING" in run.out, warned)
 
     def test_numbers_that_make_no_sense_are_refused(self):
         self.refused("kappa must be a finite number >= 0, found -3", "fix tribo all charge/gran/contact pair 1 2 gamma 1 kappa -3")
