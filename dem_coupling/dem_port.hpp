@@ -3,6 +3,7 @@
 
 #include "dem_coupling/complaints.hpp"
 #include "dem_coupling/field_settings.hpp"
+#include "dem_coupling/wall_equilibrium.hpp"
 #include "electrostatics/types.hpp"
 
 #include <array>
@@ -26,6 +27,9 @@ struct DemParticles {
 
     Index size() const { return static_cast<Index>(tag.size()); }
 };
+
+/// Numbers that the host keeps with the particles: one row each.
+using Notes = Eigen::ArrayXXd;
 
 /// One wall of the DEM scene: a primitive wall fix, or one mesh of a mesh wall fix.
 struct DemWall {
@@ -127,6 +131,37 @@ public:
     virtual ContactCounts contacts() const = 0;
     /// Charges that this rank's contacts left on walls that keep them, since the last call; then forgets them. Not collective.
     virtual void takeWallCharges(std::vector<WallCharge>& out) { out.clear(); }
+
+    // --- charges that the host sets
+    /// Ends all charging: from the hand-over on contacts move no charge and particles lose none. Before handOver().
+    virtual void stopCharging() {}
+    /// Whether particles lose charge elsewhere than at contacts (leakage, breakdown).
+    virtual bool losesCharge() const { return false; }
+    /// Replaces the charges [C] of the particles last given by particles(); setField() must follow. Not collective.
+    virtual void setCharges(const Scalars& charge) { static_cast<void>(charge); }
+    /// Enters into the books what the host gave to the walls [C] in the order of walls(), the same on every rank.
+    virtual void giveToWalls(const std::vector<double>& charge) { static_cast<void>(charge); }
+    /// Keeps numbers of the host with every particle: they travel with it and go into checkpoints; new particles start with
+    /// zeros. Before handOver(); the numbers of a checkpoint are there afterwards.
+    virtual void keepNotes(int columns) { static_cast<void>(columns); }
+    /// One row per particle, in the order of particles(). Not collective.
+    virtual void notes(Notes& out) const { out.resize(0, 0); }
+    virtual void setNotes(const Notes& notes) { static_cast<void>(notes); }
+
+    // --- what is measured on request
+    /// Gravity [m/s2]; zero where the script has none.
+    virtual Vector3 gravity() const { return Vector3::Zero(); }
+    /// The factor a on every charge transfer; 1 without charging.
+    virtual double chargingAcceleration() const { return 1; }
+    /// Equilibrium charges of the particles that are there at the walls that charge them, empty without such. After
+    /// setWallRoles() and setPermittivity(). Collective.
+    virtual std::vector<WallEquilibrium> equilibria() const { return {}; }
+    /// Makes the DEM keep the forces of contacts with walls. Returns the names of the wall fixes; one that holds several meshes
+    /// is one wall here. Before handOver(); what nobody asks for costs nothing.
+    virtual std::vector<std::string> keepWallForces() { return {}; }
+    /// Forces [N] of each of these walls' contacts on this rank's particles in the last DEM step, in the order of particles().
+    /// Not collective.
+    virtual void wallForces(std::vector<Points>& out) const { out.clear(); }
     /// Writes a restart file. The next run() computes all forces anew, as a run from that file does, so that both go on
     /// bit for bit alike.
     virtual void writeCheckpoint(const std::string& file) = 0;

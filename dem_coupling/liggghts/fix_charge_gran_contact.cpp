@@ -230,6 +230,8 @@ void FixChargeGranContact::end_of_step()
             chargeNewParticles();
             bookArrivals();
         }
+    }
+    if (enabled_ && !stopped_) {
         DemRows rows;
         rows.local = atom->nlocal;
         rows.all = atom->nlocal + atom->nghost;

@@ -45,6 +45,11 @@ public:
     ChargeTransfer& transfer() { return transfer_; }
     const std::vector<ListedWall>& walls() const { return walls_; }
     void setWallRoles(const std::vector<WallRole>& roles);
+    /// Whether contacts with this wall move charge, as far as script and case say.
+    bool transfersAt(const std::string& wall) const;
+    /// From the hand-over on contacts move no charge and particles lose none; arrivals are still booked.
+    void stopCharging() { stopped_ = true; }
+    bool losesCharge() const { return losses_.active(); }
     /// Switches charging on and opens the books: the charge that is there now has not been inserted.
     void handOver();
     std::string description();
@@ -108,6 +113,7 @@ private:
     std::vector<char> charged_;  ///< per row: the particle got its initial charge, or brought one
     bool arrivals_ = false;     ///< some row is not booked yet
     bool enabled_;
+    bool stopped_ = false;      ///< the host holds the charges
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;
     std::vector<double> restartedToWall_;  ///< from a restart file, until all of its walls are defined

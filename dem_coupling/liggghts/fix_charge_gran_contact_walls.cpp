@@ -103,6 +103,12 @@ void FixChargeGranContact::setWallRoles(const std::vector<WallRole>& roles)
     refreshWalls();
 }
 
+bool FixChargeGranContact::transfersAt(const std::string& wall) const
+{
+    return std::all_of(roles_.begin(), roles_.end(),
+                       [&](const WallRole& role) { return role.name != wall || role.transfersCharge; });
+}
+
 void FixChargeGranContact::keepWallCharges()
 {
     for (const ChargeTransfer::WallGain& gain : transfer_.wallGains()) {

@@ -9,6 +9,12 @@
 #include "lammps.h"
 
 #include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class FixPropertyAtom;
+}
 
 namespace him {
 
@@ -46,6 +52,20 @@ public:
     void takeWallCharges(std::vector<WallCharge>& out) override;
     void writeCheckpoint(const std::string& file) override;
 
+    void stopCharging() override;
+    bool losesCharge() const override;
+    void setCharges(const Scalars& charge) override;
+    void giveToWalls(const std::vector<double>& charge) override;
+    void keepNotes(int columns) override;
+    void notes(Notes& out) const override;
+    void setNotes(const Notes& notes) override;
+
+    Vector3 gravity() const override;
+    double chargingAcceleration() const override;
+    std::vector<WallEquilibrium> equilibria() const override;
+    std::vector<std::string> keepWallForces() override;
+    void wallForces(std::vector<Points>& out) const override;
+
 private:
     /// What the books need to tell how much charge left with particles that the script took out.
     struct Account {
@@ -66,6 +86,9 @@ private:
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
     FixCoupleCfdEfield* field_ = nullptr;
+    std::vector<LAMMPS_NS::FixPropertyAtom*> wallForces_;  ///< per wall fix; empty unless asked for
+    LAMMPS_NS::FixPropertyAtom* notes_ = nullptr;  ///< null unless asked for
+    int noteColumns_ = 0;
     bool setUpNext_ = false;  ///< the next run() computes the forces of its first step anew
     bool removalsAllowed_ = false;
     std::int64_t expected_ = 0;

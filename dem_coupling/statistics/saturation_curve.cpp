@@ -58,7 +58,7 @@ SaturationCurve fitSaturation(const std::vector<double>& times, const std::vecto
         return curve;
     }
     const double slowest = 0.01 / *std::max_element(times.begin(), times.end());
-    const double fastest = 100 / *std::min_element(times.begin(), times.end());
+    const double fastest = 10 / *std::min_element(times.begin(), times.end());  // beyond it the first value is Q_inf to 5e-5
     const double step = std::log(fastest / slowest) / scanPoints;
     int best = 0;
     double least = std::numeric_limits<double>::infinity();

@@ -16,8 +16,8 @@ struct SaturationCurve {
 };
 
 /// Least-squares fit through the origin of time. Q_inf follows linearly from tau, so one search over tau is all. `known` is
-/// false for fewer than three values, for values that are all zero, and for values that show no bend between a hundredth of
-/// the shortest and a hundred times the longest time.
+/// false for fewer than three values, for values that are all zero, and for values that show no bend between a tenth of the
+/// shortest and a hundred times the longest time.
 /// @param times         since charging began [s]; positive
 /// @param acceleration  a of the run [-]
 SaturationCurve fitSaturation(const std::vector<double>& times, const std::vector<double>& values, double acceleration);

@@ -24,6 +24,7 @@ SourceFiles
 #include "output/fieldErrorTable.H"
 #include "output/particleWriter.H"
 #include "output/runReport.H"
+#include "output/statisticsTables.H"
 #include "parallel/session.H"
 
 #include "OSspecific.H"
@@ -35,22 +36,6 @@ SourceFiles
 namespace him {
 
 namespace {
-
-std::unique_ptr<FieldMethod> handSettingsTo(const scene& s, MPI_Comm communicator, PhaseTimes& times)
-{
-    std::vector<WallRole> roles;
-    for (const auto& [wall, target] : s.settings.walls) {
-        const bool keeps = s.poisson && wallCharges::isInsulating(target, s.poisson->matter());
-        roles.push_back({wall, target != noTransfer, keeps});
-    }
-    auto method =
-        FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
-    s.dem->setWallRoles(roles);
-    s.dem->setWallContactField(s.settings.wallContactField);
-    s.dem->setPermittivity(s.settings.field.permittivity);
-    s.dem->allowRemovals(s.settings.allowRemovals);
-    return method;
-}
 
 /// Fields, particles and DEM checkpoint, when it is time for them.
 void write(scene& s, const CoupledStep& step, particleWriter& particles, PhaseTimes& times)
@@ -77,13 +62,16 @@ void run(scene& s, MPI_Comm communicator)
 {
     Foam::Time& runTime = s.runTime();
     PhaseTimes times;
-    const auto method = handSettingsTo(s, communicator, times);
+    const auto method =
+        FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     step.setWallCharges(s.insulatingWalls.get());
     chargeTable charge(runTime, s.dem->walls(), step.hasInsulatingWalls());
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
+    const auto statistics =
+        statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem, {}, communicator);
     runReport report(runTime, times, s.settings.logInterval);
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
@@ -91,6 +79,9 @@ void run(scene& s, MPI_Comm communicator)
     printOwnCellField(*method, step.particles());
     charge.write(runTime.value(), step);
     fieldError.update(step);
+    if (statistics) {
+        statistics->start(step);
+    }
     const double deltaT = runTime.deltaTValue();
     while (runTime.loop()) {
         if (runTime.deltaTValue() != deltaT) {
@@ -105,6 +96,9 @@ void run(scene& s, MPI_Comm communicator)
         {
             const PhaseTimer timer(times, Phase::output);
             fieldError.update(step);
+            if (statistics) {
+                statistics->update(step);
+            }
         }
         report.endStep(step);
     }

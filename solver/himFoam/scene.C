@@ -8,6 +8,23 @@
 
 namespace him {
 
+namespace {
+
+void handSettingsToDem(scene& s)
+{
+    std::vector<WallRole> roles;
+    for (const auto& [wall, target] : s.settings.walls) {
+        const bool keeps = s.poisson && wallCharges::isInsulating(target, s.poisson->matter());
+        roles.push_back({wall, target != noTransfer, keeps});
+    }
+    s.dem->setWallRoles(roles);
+    s.dem->setWallContactField(s.settings.wallContactField);
+    s.dem->setPermittivity(s.settings.field.permittivity);
+    s.dem->allowRemovals(s.settings.allowRemovals);
+}
+
+}  // namespace
+
 void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
 {
     const Foam::fileName casePath = args.rootPath() / args.globalCaseName();
@@ -57,6 +74,8 @@ void openDem(scene& s, MPI_Comm communicator)
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
         s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);
     }
+    handSettingsToDem(s);
+    s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);
     stopOnComplaints(complaints, "Case and DEM script together", communicator);
     printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);
 }

@@ -112,10 +112,15 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
 {
     using Foam::Info;
     const FieldSettings& field = settings.field;
+    const std::string equilibria = describe(dem.equilibria());
     Info << "\nWalls\n"
          << wallTable(settings, dem, mesh).c_str() << "\nContact charging\n"
          << dem.chargingDescription().c_str() << "\n    field at wall contacts: "
-         << (settings.wallContactField == WallContactField::total ? "total" : "self") << "\n\nField method "
+         << (settings.wallContactField == WallContactField::total ? "total" : "self");
+    if (!equilibria.empty()) {
+        Info << "\n\nEquilibrium at uncharged walls (S2.14), e/g by S2.15, of particles of mean diameter\n" << equilibria.c_str();
+    }
+    Info << "\n\nField method "
          << field.method.c_str();
     if (FieldMethod::needsCutoff(field.method)) {
         Info << ", nearCutoff " << field.nearCutoff << " m";

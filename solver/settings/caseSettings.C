@@ -58,6 +58,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
     settings.logInterval = properties.positiveInteger("logInterval", 1);
     settings.chargeInterval = properties.positiveInteger("chargeInterval", 1);
     properties.refuseUnknownEntries();
+    settings.statistics = readStatisticsChoices(casePath, complaints);
     return settings;
 }
 

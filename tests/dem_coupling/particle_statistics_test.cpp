@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dem_coupling/statistics/particle_sums.hpp"
+#include "dem_coupling/particle_statistics.hpp"
 #include "dem_coupling/statistics/saturation_curve.hpp"
 
 #include <gtest/gtest.h>
@@ -176,6 +176,80 @@ TEST(SaturationCurve, isFoundFromItsOwnValues)
         EXPECT_LT(curve.deviation, 1e-11);
         EXPECT_NEAR(curve.at(2, acceleration) / values[19], 1, 1e-6);
     }
+}
+
+TEST(RunningSaturation, keepsToFewValuesAndFindsTheCurveOfALongRun)
+{
+    RunningSaturation running;
+    running.add(0, 0);  // the start tells nothing
+    EXPECT_EQ(running.values(), 0U);
+    for (int n = 1; n <= 100000; ++n) {
+        running.add(1e-4 * n, 4e-5 * -std::expm1(-1e-4 * n / 2.5));
+        ASSERT_LT(running.values(), RunningSaturation::mostValues);
+    }
+    ASSERT_TRUE(running.curve().known);
+    EXPECT_NEAR(running.curve().limit / 4e-5, 1, 1e-6);
+    EXPECT_NEAR(running.curve().timeScale / 2.5, 1, 1e-6);
+}
+
+TEST(RegionStatistics, averagesSamplesAndWeighsWhatWallsCarry)
+{
+    DemParticles particles;
+    Points field;
+    dealOut(five, particles, field);
+    StatisticsRegion settings;
+    settings.place = column();
+    settings.layerThickness = 0.5e-3;
+    settings.layers = 2;
+    settings.profileWidth = 0.5e-3;
+    settings.profileBins = 4;
+    settings.lowestCharge = -5e-12;
+    settings.highestCharge = 5e-12;
+    settings.chargeBins = 10;
+    RegionStatistics statistics(settings, 2, MPI_COMM_WORLD);
+    const Vector3 gravity(0, -10, 0);
+    // One wall holds every particle with 3 uN, also the one outside the region; the other pulls with 1 uN.
+    Points held = Points::Zero(particles.size(), 3), pulled = held;
+    held.col(1) = 3e-6;
+    pulled.col(1) = -1e-6;
+    pulled.col(0) = 7e-6;
+    const RegionSample first = statistics.sample(particles, field, {held, pulled}, gravity);
+    EXPECT_NEAR(first.weight, 8e-5, 1e-18);
+    EXPECT_NEAR(first.carriedByWall[0], 12e-6, 1e-18);
+    EXPECT_NEAR(first.carriedByWall[1], -4e-6, 1e-18);
+    statistics.average(particles, field, first);
+    particles.charge *= 3;
+    statistics.average(particles, field, statistics.sample(particles, field, {}, gravity));
+    EXPECT_EQ(statistics.samples(), 2);
+    const RegionSample mean = statistics.averages();
+    EXPECT_NEAR(mean.sums.charge, 4e-12, 1e-26);
+    EXPECT_EQ(mean.sums.layers, (std::vector<double>{2, 1}));
+    EXPECT_NEAR(mean.carriedByWall[0], 6e-6, 1e-18);
+    EXPECT_NEAR(mean.sums.wallSpeed(), std::sqrt(13.0), 1e-14);
+    EXPECT_NEAR(statistics.profile()[0].meanCharge, 3e-12, 1e-26);
+    EXPECT_EQ(statistics.chargeCounts().back(), 2);  // 6 and 9 pC lie above the range
+    statistics.beginAverages();
+    EXPECT_EQ(statistics.samples(), 0);
+    EXPECT_EQ(statistics.averages().sums.charge, 0);
+    EXPECT_EQ(statistics.profile()[0].numberDensity, 0);
+}
+
+TEST(RegionStatistics, aRegionWithoutWallsHasNoLayersAndNoProfile)
+{
+    DemParticles particles;
+    Points field;
+    dealOut(five, particles, field);
+    StatisticsRegion settings;
+    settings.place.box = column().box;
+    settings.lowestCharge = -1;
+    settings.highestCharge = 1;
+    settings.chargeBins = 1;
+    RegionStatistics statistics(settings, 0, MPI_COMM_WORLD);
+    const RegionSample sample = statistics.sample(particles, field, {}, Vector3::Zero());
+    EXPECT_EQ(sample.sums.particles, 4);
+    EXPECT_EQ(sample.weight, 0);
+    EXPECT_TRUE(sample.sums.layers.empty());
+    EXPECT_TRUE(statistics.profile().empty());
 }
 
 TEST(SaturationCurve, isUnknownWhereNothingBends)
