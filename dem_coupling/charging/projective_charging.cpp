@@ -8,45 +8,161 @@
 
 namespace him {
 
-ChargeProjection::ChargeProjection(const Scalars& before, const Scalars& after, MPI_Comm communicator)
+namespace {
+
+/// Sums of one group: number, q, gain; then about the means q q, q gain, gain gain.
+constexpr std::size_t sumsPerGroup = 6;
+
+/// A slope counts when it is this many standard errors below zero.
+constexpr double significance = 2;
+
+}  // namespace
+
+ChargeProjection::ChargeProjection(const Scalars& before, const Scalars& after, const std::vector<int>& group,
+                                   const std::vector<std::vector<double>>& equilibrium, MPI_Comm communicator)
+    : after_(after), group_(group), groups_(equilibrium.size()), communicator_(communicator)
 {
-    if (before.size() != after.size()) {
+    if (before.size() != after.size() || static_cast<std::size_t>(before.size()) != group.size()) {
         throw std::invalid_argument("a burst needs the charges of the same particles before and after it");
     }
-    const Scalars gain = after - before;
-    std::array<double, 3> sums{static_cast<double>(before.size()), before.sum(), gain.sum()};
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
-    total_ = sums[2];
+    std::vector<double> sums(sumsPerGroup * groups_.size(), 0.0);
+    const auto add = [&](auto&& entry) {
+        for (Index row = 0; row < before.size(); ++row) {
+            entry(row, &sums[sumsPerGroup * static_cast<std::size_t>(group_[static_cast<std::size_t>(row)])]);
+        }
+    };
+    const auto reduce = [&] {
+        MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+    };
+    add([&](Index row, double* of) {
+        of[0] += 1;
+        of[1] += before[row];
+        of[2] += after[row] - before[row];
+    });
+    reduce();
+    const std::vector<double> first = sums;
+    std::fill(sums.begin(), sums.end(), 0.0);
+    add([&](Index row, double* of) {
+        const double* mean = &first[static_cast<std::size_t>(of - sums.data())];
+        const double q = before[row] - mean[1] / mean[0];
+        const double gain = after[row] - before[row] - mean[2] / mean[0];
+        of[3] += q * q;
+        of[4] += q * gain;
+        of[5] += gain * gain;
+    });
+    reduce();
+    for (std::size_t n = 0; n < groups_.size(); ++n) {
+        std::array<double, sumsPerGroup> of{};
+        for (std::size_t k = 0; k < sumsPerGroup; ++k) {
+            of[k] = k < 3 ? first[sumsPerGroup * n + k] : sums[sumsPerGroup * n + k];
+        }
+        total_ += of[2];
+        fitGroup(groups_[n], of.data(), equilibrium[n]);
+    }
+    rest_.resize(before.size());
+    for (Index row = 0; row < before.size(); ++row) {
+        const Fit& fit = groups_[static_cast<std::size_t>(group_[static_cast<std::size_t>(row)])];
+        rest_[row] = after[row] - before[row] - fit.gainAtZero - fit.slope * before[row];
+    }
+}
+
+void ChargeProjection::fitGroup(Fit& fit, const double* sums, const std::vector<double>& equilibrium) const
+{
+    fit.particles = sums[0];
     if (sums[0] == 0) {
+        fit.held = true;
         return;
     }
     const double charge = sums[1] / sums[0];
-    mean_ = c0_ = sums[2] / sums[0];
-    std::array<double, 2> moments{(before - charge).square().sum(), ((before - charge) * gain).sum()};
-    MPI_Allreduce(MPI_IN_PLACE, moments.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
-    if (sums[0] >= 3 && moments[0] > 0) {
-        c1_ = moments[1] / moments[0];
-        c0_ = mean_ - c1_ * charge;
+    fit.meanGain = sums[2] / sums[0];
+    // The equilibrium charge that the mean gain leads to, the farther one where there are several walls.
+    double target = charge;
+    for (const double one : equilibrium) {
+        if ((one - charge) * fit.meanGain > 0 && std::fabs(one - charge) > std::fabs(target - charge)) {
+            target = one;
+        }
     }
+    const bool known = target != charge;
+    if (sums[0] >= 3 && sums[3] > 0) {
+        const double slope = sums[4] / sums[3];
+        const double scatter = std::max(0.0, sums[5] - slope * sums[4]) / (sums[0] - 2);
+        const double limit = slope < 0 ? charge - fit.meanGain / slope : 0;
+        const bool within = !known || (limit - target) * fit.meanGain <= 0;
+        if (slope + significance * std::sqrt(scatter / sums[3]) < 0 && within) {
+            fit.slope = slope;
+            fit.fromBurst = true;
+        }
+    }
+    if (!fit.fromBurst && known) {
+        fit.slope = -fit.meanGain / (target - charge);
+    }
+    fit.gainAtZero = fit.meanGain - fit.slope * charge;
+    fit.held = !fit.fromBurst && !known;
 }
 
-Scalars ChargeProjection::project(const Scalars& charge, double bursts) const
+ChargeProjection::Leap ChargeProjection::leap(long bursts, double correlation, bool walls) const
 {
-    if (!(bursts >= 0)) {
+    if (bursts < 0) {
         throw std::invalid_argument("a projection goes forward: its length must not be negative");
     }
-    if (!relaxes()) {
-        return charge + mean_ * bursts;
+    std::vector<double> growth(groups_.size()), factor(groups_.size());
+    for (std::size_t n = 0; n < groups_.size(); ++n) {
+        growth[n] = std::expm1(groups_[n].slope * static_cast<double>(bursts));
+        factor[n] = restFactor(bursts, correlation, groups_[n].slope);
     }
-    // q + (c0 + c1 q) (exp(c1 n) - 1)/c1
-    return charge + (c0_ + c1_ * charge) * (std::expm1(c1_ * bursts) / c1_);
+    Leap result;
+    result.charge = after_;
+    std::array<double, 4> sums{};  // gains, losses, stopped, gain that the fits expect of the next burst
+    for (Index row = 0; row < after_.size(); ++row) {
+        const auto n = static_cast<std::size_t>(group_[static_cast<std::size_t>(row)]);
+        const Fit& fit = groups_[n];
+        if (fit.held) {
+            continue;
+        }
+        const double way = after_[row] - fit.limit();
+        double change = fit.slope < 0 ? way * growth[n] : 0;
+        change += factor[n] * rest_[row];
+        if (fit.slope < 0 && way * (way + change) < 0) {
+            change = -way;
+            sums[2] += 1;
+        }
+        result.charge[row] += change;
+        sums[change > 0 ? 0 : 1] += change;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
+    result.stopped = static_cast<std::int64_t>(sums[2]);
+    result.gained = sums[0] + sums[1];
+    if (!walls && result.gained != 0) {
+        // A smaller change never passes anything that the whole one does not pass.
+        const bool up = result.gained > 0;
+        const double share = up ? -sums[1] / sums[0] : -sums[0] / sums[1];
+        for (Index row = 0; row < after_.size(); ++row) {
+            const double change = result.charge[row] - after_[row];
+            if ((change > 0) == up) {
+                result.charge[row] = after_[row] + share * change;
+            }
+        }
+        result.gained = 0;
+    }
+    for (Index row = 0; row < after_.size(); ++row) {
+        const Fit& fit = groups_[static_cast<std::size_t>(group_[static_cast<std::size_t>(row)])];
+        sums[3] += fit.held ? fit.meanGain : fit.gainAtZero + fit.slope * result.charge[row];
+    }
+    MPI_Allreduce(&sums[3], &result.assumedGain, 1, MPI_DOUBLE, MPI_SUM, communicator_);
+    return result;
 }
 
-double ChargeProjection::wallFactor(const Scalars& charge, double bursts, MPI_Comm communicator) const
+double restFactor(long bursts, double correlation, double slope)
 {
-    double gained = (project(charge, bursts) - charge).sum();
-    MPI_Allreduce(MPI_IN_PLACE, &gained, 1, MPI_DOUBLE, MPI_SUM, communicator);
-    return total_ == 0 ? 0 : gained / total_;
+    const double rho = std::clamp(correlation, 0.0, 1.0);
+    const double g = std::exp(slope);
+    double sum = 1;     // S of k bursts beyond the first
+    double cross = rho; // sum over i = 0..k of g^(k-i) rho^(k+1-i)
+    for (long k = 0; k < bursts; ++k) {
+        sum = g * g * sum + 2 * g * cross + 1;
+        cross = rho * (g * cross + 1);
+    }
+    return std::sqrt(sum) - std::pow(g, static_cast<double>(bursts));
 }
 
 double projectionError(double assumedGain, double foundGain)

@@ -71,10 +71,15 @@ void run(scene& s, MPI_Comm communicator)
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
     const auto statistics =
-        statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem, {}, communicator);
+        statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem,
+                                 s.dem->charging() && !s.settings.fixedUniformCharge, {}, communicator);
     runReport report(runTime, times, s.settings.logInterval);
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
+    if (s.settings.fixedUniformCharge) {
+        s.dem->stopCharging();
+        printUniformCharge(replaceByMean(*s.dem, communicator));
+    }
     step.start();
     printOwnCellField(*method, step.particles());
     charge.write(runTime.value(), step);

@@ -75,6 +75,7 @@ void openDem(scene& s, MPI_Comm communicator)
         s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);
     }
     handSettingsToDem(s);
+    checkUniformCharge(s.settings, *s.dem, communicator, complaints);
     s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);
     stopOnComplaints(complaints, "Case and DEM script together", communicator);
     printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);

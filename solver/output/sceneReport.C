@@ -144,6 +144,19 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
     Info << Foam::endl;
 }
 
+void printUniformCharge(const UniformCharge& charge)
+{
+    Foam::Info << "Fixed uniform charge: charging is off, walls keep what they have. ";
+    if (charge.replaced) {
+        Foam::Info << "All " << Foam::label(charge.particles) << " particles got their mean, " << shown(charge.mean, 12).c_str()
+                   << " C; in all " << shown(charge.before, 12).c_str() << " C before, " << shown(charge.after, 12).c_str() << " C now";
+    } else {
+        Foam::Info << "All " << Foam::label(charge.particles) << " particles had the same charge already, "
+                   << shown(charge.mean, 12).c_str() << " C";
+    }
+    Foam::Info << '\n' << Foam::endl;
+}
+
 void printOwnCellField(FieldMethod& method, const DemParticles& particles)
 {
     const std::optional<OwnCellField> own = method.ownCellField(particles);

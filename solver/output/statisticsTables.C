@@ -28,12 +28,12 @@ double sumOf(const std::vector<double>& values)
 
 std::unique_ptr<statisticsTables> statisticsTables::create(const Foam::Time& runTime, const statisticsChoices& choices,
                                                            const std::vector<StatisticsRegion>& regions, DemPort& dem,
-                                                           pressureDropSource pressureDrop, MPI_Comm communicator)
+                                                           bool charges, pressureDropSource pressureDrop, MPI_Comm communicator)
 {
     if (!choices.active) {
         return nullptr;
     }
-    std::unique_ptr<statisticsTables> made(new statisticsTables(runTime, choices, dem, std::move(pressureDrop)));
+    std::unique_ptr<statisticsTables> made(new statisticsTables(runTime, choices, dem, charges, std::move(pressureDrop)));
     for (const StatisticsRegion& region : regions) {
         made->tables_.push_back({RegionStatistics(region, made->wallNames_.size(), communicator), {}, {}});
     }
@@ -41,12 +41,13 @@ std::unique_ptr<statisticsTables> statisticsTables::create(const Foam::Time& run
 }
 
 statisticsTables::statisticsTables(const Foam::Time& runTime, const statisticsChoices& choices, DemPort& dem,
-                                   pressureDropSource pressureDrop)
+                                   bool charges, pressureDropSource pressureDrop)
     : runTime_(runTime),
       dem_(dem),
       sampleInterval_(choices.sampleInterval),
       chargingSince_(choices.chargingSince),
       acceleration_(dem.chargingAcceleration()),
+      charges_(charges),
       gravity_(dem.gravity()),
       wallNames_(gravity_.norm() > 0 ? dem.keepWallForces() : std::vector<std::string>()),
       pressureDrop_(std::move(pressureDrop))
@@ -104,7 +105,9 @@ void statisticsTables::writeLine(table& one, const RegionSample& sample, double 
         return;
     }
     const RegionSums& sums = sample.sums;
-    one.saturation.add(chargingTime, sums.chargePerMass());
+    if (charges_) {
+        one.saturation.add(chargingTime, sums.chargePerMass());
+    }
     const SaturationCurve& curve = one.saturation.curve();
     std::ofstream& out = one.series;
     out << runTime_.value() << ' ' << chargingTime << ' ' << sums.particles << ' ' << sums.mass << ' ' << sums.charge << ' '

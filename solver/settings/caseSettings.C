@@ -54,6 +54,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
                                      : OutsideMesh::error;
     settings.wallDistance = properties.has("wallDistance") ? properties.positive("wallDistance", 1) : 0;
     settings.allowRemovals = properties.yesNo("allowRemovals", false);
+    settings.fixedUniformCharge = properties.yesNo("fixedUniformCharge", false);
     settings.demCheckpoint = properties.yesNo("demCheckpoint", true);
     settings.logInterval = properties.positiveInteger("logInterval", 1);
     settings.chargeInterval = properties.positiveInteger("chargeInterval", 1);
