@@ -41,6 +41,22 @@ struct DemWall {
     ImageWall image = {};        ///< of a primitive wall; the side of a plane's normal is arbitrary
 };
 
+/// How the gas acts on particles from one gas step to the next: drag (velocity - v) + force + buoyancy. One row per particle.
+struct GasForces {
+    Points velocity;  ///< of the gas at the particle [m/s]
+    Scalars drag;     ///< beta [kg/s], at least 0
+    Points force;     ///< of the gas beside drag, which the gas loses [N]
+    Points buoyancy;  ///< hydrostatic, which is balanced within the gas's own weight [N]
+
+    void resize(Index rows)
+    {
+        velocity.setZero(rows, 3);
+        drag.setZero(rows);
+        force.setZero(rows, 3);
+        buoyancy.setZero(rows, 3);
+    }
+};
+
 /// How a DEM wall takes part in charging, decided by the case.
 struct WallRole {
     std::string name;  ///< DemWall::name
@@ -122,6 +138,13 @@ public:
     /// @param ownResponse  share of the field that each particle's own images make, or no rows; see ParticleField
     virtual void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) = 0;
     virtual void run(long steps) = 0;
+    /// Hands over what the gas does to the particles last given by particles(), in the same order. Before the first call no
+    /// gas acts.
+    virtual void setGasForces(const GasForces& forces) = 0;
+    /// Impulse [N s] that drag and force have given each particle since setGasForces(), and what they promised for a
+    /// duration [s] with the velocities of that moment; in the order of particles(), not collective. Zeros before the first
+    /// setGasForces().
+    virtual void gasImpulse(Points& given, double duration, Points& promised) const = 0;
     /// Particles that there must be, all ranks: those of the hand-over and those that appeared, less those that were taken
     /// out with permission.
     virtual std::int64_t particleCount() const = 0;
@@ -171,6 +194,8 @@ struct DemOptions {
     std::string script;     ///< path of the LIGGGHTS script
     std::string directory;  ///< directory in which its relative paths are meant
     std::string logFile;    ///< LIGGGHTS log
+    bool needsCharge = true;  ///< particles must have a charge; false for a gas without electrostatics
+    bool hasGas = false;      ///< setGasForces() will be called; false costs nothing
     /// LIGGGHTS index variables that the script finds set, name and value (as `-var name value` on its command line).
     std::vector<std::pair<std::string, std::string>> variables;
 };

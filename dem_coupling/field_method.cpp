@@ -203,4 +203,23 @@ std::unique_ptr<FieldMethod> FieldMethod::create(const FieldSettings& settings, 
     return std::make_unique<Him>(settings, *mesh, demBox, periodic, communicator, times);
 }
 
+namespace {
+
+class NoField : public FieldMethod {
+public:
+    void compute(const DemParticles& particles, ParticleField& result) override
+    {
+        result.field.setZero(particles.size(), 3);
+    }
+    double partnerCutoff() const override { return 0; }
+    bool hasPotential() const override { return false; }
+};
+
+}  // namespace
+
+std::unique_ptr<FieldMethod> FieldMethod::none()
+{
+    return std::make_unique<NoField>();
+}
+
 }  // namespace him

@@ -56,6 +56,9 @@ public:
                                                const std::array<bool, 3>& periodic, MPI_Comm communicator,
                                                PhaseTimes& times);
 
+    /// No field at all, for scenes without electrostatics.
+    static std::unique_ptr<FieldMethod> none();
+
     /// Field of all charges at these particles, plus the external field. Throws std::runtime_error, the same on every
     /// rank, when two particles share a position or one is outside a mesh that should hold it.
     virtual void compute(const DemParticles& particles, ParticleField& result) = 0;

@@ -7,7 +7,7 @@
 namespace him {
 
 /// Where the wall-clock time of a run goes.
-enum class Phase { dem, near, deposit, poisson, gather, exchange, output, count };
+enum class Phase { dem, near, deposit, poisson, gather, exchange, gas, output, count };
 
 /// Seconds spent in each phase on this rank.
 class PhaseTimes {
@@ -17,7 +17,7 @@ public:
     static const char* name(Phase phase)
     {
         static constexpr std::array<const char*, static_cast<std::size_t>(Phase::count)> names{
-            "DEM", "near sum", "deposit", "Poisson", "gather", "exchange", "output"};
+            "DEM", "near sum", "deposit", "Poisson", "gather", "exchange", "gas", "output"};
         return names[static_cast<std::size_t>(phase)];
     }
 

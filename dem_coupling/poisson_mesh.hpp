@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/cell_mesh.hpp"
 #include "electrostatics/mesh_arrays.hpp"
 #include "electrostatics/types.hpp"
 
@@ -11,18 +12,9 @@
 
 namespace him {
 
-/// What a mesh field method needs of a finite-volume mesh. SI units. Cell indices are local to the rank.
-class PoissonMesh {
+/// What a mesh field method needs of a finite-volume mesh besides its cells.
+class PoissonMesh : public CellMesh {
 public:
-    virtual ~PoissonMesh() = default;
-
-    virtual Box localBounds() const = 0;             ///< bounds of this rank's cells [m]; empty when it has none
-    virtual Index cellCount() const = 0;             ///< cells of this rank
-    virtual double largestCellDiagonal() const = 0;  ///< over all ranks [m]; not collective
-    /// Local cell that holds the point, or -1. Not collective.
-    virtual Index findCell(const Vector3& point) const = 0;
-    virtual Vector3 cellCentre(Index cell) const = 0;  ///< [m]
-
     /// Solves laplacian(V) = -rho/eps with the case's boundary conditions. Collective.
     /// @param cellCharge  charge of each local cell [C]
     /// Stops the run when the solver does not converge.

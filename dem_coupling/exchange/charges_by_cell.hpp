@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/exchange/particles_on_mesh.hpp"
+#include "dem_coupling/poisson_mesh.hpp"
 #include "electrostatics/cell_pairs.hpp"
 
 #include <functional>

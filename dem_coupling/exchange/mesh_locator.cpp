@@ -5,12 +5,12 @@
 
 namespace him {
 
-MeshLocator::MeshLocator(const PoissonMesh& mesh, MPI_Comm communicator)
+MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator)
     : MeshLocator(mesh, communicator, Box(), {false, false, false})
 {
 }
 
-MeshLocator::MeshLocator(const PoissonMesh& mesh, MPI_Comm communicator, const Box& demBox, const std::array<bool, 3>& periodic)
+MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator, const Box& demBox, const std::array<bool, 3>& periodic)
     : mesh_(mesh),
       demBox_(demBox),
       periodic_(periodic),

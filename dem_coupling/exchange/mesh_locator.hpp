@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/cell_mesh.hpp"
 #include "dem_coupling/exchange/sparse_exchange.hpp"
-#include "dem_coupling/poisson_mesh.hpp"
 
 #include <array>
 #include <functional>
@@ -15,10 +15,10 @@ namespace him {
 class MeshLocator {
 public:
     /// Collective: every rank learns the bounds of every other rank's cells.
-    MeshLocator(const PoissonMesh& mesh, MPI_Comm communicator);
+    MeshLocator(const CellMesh& mesh, MPI_Comm communicator);
     /// The same for a DEM box with periodic directions, which the mesh shares. A DEM brings particles back into its box
     /// only when it rebuilds its lists; one that has strayed is sought one period away.
-    MeshLocator(const PoissonMesh& mesh, MPI_Comm communicator, const Box& demBox, const std::array<bool, 3>& periodic);
+    MeshLocator(const CellMesh& mesh, MPI_Comm communicator, const Box& demBox, const std::array<bool, 3>& periodic);
 
     /// Finds rank and cell of every position [m]. Collective.
     void locate(const Points& positions);
@@ -44,7 +44,7 @@ public:
     void gather(const std::function<Vector3(Index)>& valueOfCell, Points& values);
 
 private:
-    const PoissonMesh& mesh_;
+    const CellMesh& mesh_;
     Box demBox_;
     std::array<bool, 3> periodic_;
     SparseExchange exchange_;

@@ -3,6 +3,7 @@
 
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 #include "dem_coupling/liggghts/fix_constrain_plane.hpp"
+#include "dem_coupling/liggghts/fix_couple_cfd_drag.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 #include "dem_coupling/liggghts/fix_efield_him.hpp"
 #include "dem_coupling/liggghts/fix_enable_electric_field.hpp"
@@ -40,6 +41,7 @@ void registerFixes(LAMMPS_NS::LAMMPS* lmp)
     const std::map<std::string, FixCreator> ours{
         {"charge/gran/contact", &create<FixChargeGranContact>},
         {"constrain/plane", &create<FixConstrainPlane>},
+        {"couple/cfd/drag", &create<FixCoupleCfdDrag>},
         {"couple/cfd/efield", &create<FixCoupleCfdEfield>},
         {"efield/him", &create<FixEfieldHim>},
         {"enable_electric_field", &create<FixEnableElectricField>},

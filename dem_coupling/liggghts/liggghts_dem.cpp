@@ -37,6 +37,7 @@ namespace {
 
 /// Id of the field fix that the host adds to the user's script.
 constexpr const char* fieldFixId = "himFoamElectricField";
+constexpr const char* dragFixId = "himFoamDrag";
 
 std::unique_ptr<LAMMPS_NS::LAMMPS> start(const DemOptions& options, MPI_Comm communicator)
 {
@@ -70,7 +71,7 @@ std::unique_ptr<DemPort> openLiggghts(const DemOptions& options, MPI_Comm commun
 }
 
 LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
-    : script_(options.script), communicator_(communicator)
+    : script_(options.script), communicator_(communicator), needsCharge_(options.needsCharge)
 {
     if (chdir(options.directory.c_str()) != 0) {
         throw std::runtime_error("can not enter the case directory " + options.directory);
@@ -93,6 +94,11 @@ LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
         walls_.push_back(wall.wall);
     }
     charging_ = FixChargeGranContact::find(lmp_.get());
+    if (options.hasGas && lmp_->domain->box_exist) {
+        // Now, because a fix that comes after the first set-up is not called.
+        command(std::string("fix ") + dragFixId + " all couple/cfd/drag");
+        drag_ = static_cast<FixCoupleCfdDrag*>(lmp_->modify->find_fix_id(dragFixId));
+    }
     expected_ = lmp_->atom->natoms;
 }
 
@@ -153,7 +159,10 @@ Complaints LiggghtsDem::check() const
         complaints.add(script_, "'dimension 2' found, which makes discs of unit length with the mass and the contact area of "
                                 "cylinders. Write 'dimension 3', and confine spheres to a plane by fix constrain/plane.");
     }
-    if (!lmp_->atom->q_flag || !lmp_->atom->radius_flag) {
+    if (!needsCharge_ && !lmp_->atom->radius_flag) {
+        complaints.add(script_, "atom_style '" + std::string(lmp_->atom->atom_style)
+                                    + "' found; spheres are needed. Write 'atom_style granular'.");
+    } else if (needsCharge_ && (!lmp_->atom->q_flag || !lmp_->atom->radius_flag)) {
         complaints.add(script_,
                        "atom_style '" + std::string(lmp_->atom->atom_style)
                            + "' found; charged spheres are needed. Write 'atom_style hybrid granular charge'.");
@@ -174,6 +183,11 @@ Complaints LiggghtsDem::check() const
     if (const auto* fix = dynamic_cast<FixEfieldHim*>(FixCoupleCfdEfield::find(lmp_.get()))) {
         complaints.add(script_, "fix " + std::string(fix->id) + " of style efield/him found, which computes the field in "
                                     "liggghtsHim. Here fieldMethod in constant/electrostaticProperties does. Remove the fix.");
+    }
+    if (charging_ && !needsCharge_) {
+        complaints.add(script_, "fix " + std::string(charging_->id)
+                                    + " charges particles, but the case has no constant/electrostaticProperties. Write that "
+                                      "file, or remove the fix.");
     }
     if (charging_) {
         checkContactModels(complaints);
@@ -272,6 +286,9 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field, c
     if (particles.size() != lmp_->atom->nlocal || field.rows() != particles.size()) {
         throw std::logic_error("setField: the field is not that of the particles last read");
     }
+    if (!needsCharge_) {
+        return;
+    }
     if (!field_) {
         field_ = FixCoupleCfdEfield::find(lmp_.get());  // the script may hold one of its own, with a limiter
     }
@@ -290,12 +307,33 @@ void LiggghtsDem::run(long steps)
     countParticles(before);
 }
 
+void LiggghtsDem::setGasForces(const GasForces& forces)
+{
+    if (forces.drag.size() != lmp_->atom->nlocal) {
+        throw std::logic_error("setGasForces: the forces are not those of the particles last read");
+    }
+    if (!drag_) {
+        throw std::logic_error("setGasForces: DemOptions::hasGas is not set");
+    }
+    drag_->setForces(forces);
+}
+
+void LiggghtsDem::gasImpulse(Points& given, double duration, Points& promised) const
+{
+    if (drag_) {
+        drag_->impulse(given, duration, promised);
+    } else {
+        given.setZero(lmp_->atom->nlocal, 3);
+        promised.setZero(lmp_->atom->nlocal, 3);
+    }
+}
+
 LiggghtsDem::Account LiggghtsDem::account() const
 {
     Account now;
-    now.arrivals = field_ ? field_->arrivals() : 0;
+    now.arrivals = field_ ? field_->arrivals() : drag_ ? drag_->arrivals() : 0;
     CompensatedSum charge;
-    for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+    for (int i = 0; lmp_->atom->q && i < lmp_->atom->nlocal; ++i) {
         charge += lmp_->atom->q[i];
     }
     now.charge = charge.value();

@@ -3,6 +3,7 @@
 
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
+#include "dem_coupling/liggghts/fix_couple_cfd_drag.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 #include "dem_coupling/liggghts/liggghts_screen.hpp"
 
@@ -45,6 +46,8 @@ public:
     void particles(DemParticles& out) const override;
     void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
+    void setGasForces(const GasForces& forces) override;
+    void gasImpulse(Points& given, double duration, Points& promised) const override;
     std::int64_t particleCount() const override { return expected_; }
 
     ChargeMovements movements() const override;
@@ -85,7 +88,9 @@ private:
     std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
-    FixCoupleCfdEfield* field_ = nullptr;
+    FixCoupleCfdEfield* field_ = nullptr;  ///< made with the first field
+    FixCoupleCfdDrag* drag_ = nullptr;     ///< null without a gas
+    bool needsCharge_;
     std::vector<LAMMPS_NS::FixPropertyAtom*> wallForces_;  ///< per wall fix; empty unless asked for
     LAMMPS_NS::FixPropertyAtom* notes_ = nullptr;  ///< null unless asked for
     int noteColumns_ = 0;

@@ -18,7 +18,11 @@ void readRows(const LAMMPS_NS::Atom& atom, DemParticles& out)
             out.velocity(i, d) = atom.v[i][d];
         }
     }
-    out.charge = Eigen::Map<const Scalars>(atom.q, n);
+    if (atom.q) {
+        out.charge = Eigen::Map<const Scalars>(atom.q, n);
+    } else {
+        out.charge.setZero(n);
+    }
     out.radius = Eigen::Map<const Scalars>(atom.radius, n);
     out.mass = Eigen::Map<const Scalars>(atom.rmass, n);
 }

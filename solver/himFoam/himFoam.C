@@ -19,6 +19,7 @@ SourceFiles
     himFoam.C
     scene.C
 \*---------------------------------------------------------------------------*/
+#include "gas/gasPhase.H"
 #include "himFoam/scene.H"
 #include "output/chargeTable.H"
 #include "output/fieldErrorTable.H"
@@ -31,6 +32,7 @@ SourceFiles
 #include "profiling.H"
 
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 
 namespace him {
@@ -67,7 +69,14 @@ void run(scene& s, MPI_Comm communicator)
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     step.setWallCharges(s.insulatingWalls.get());
-    chargeTable charge(runTime, s.dem->walls(), step.hasInsulatingWalls());
+    std::optional<chargeTable> charge;
+    if (s.settings.electrostatics) {
+        charge.emplace(runTime, s.dem->walls(), step.hasInsulatingWalls());
+    }
+    std::optional<gasPhase> gas;
+    if (s.settings.gas) {
+        gas.emplace(s.gasMesh(), *s.settings.gas, *s.dem, times, communicator);
+    }
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
     const auto statistics =
@@ -82,20 +91,34 @@ void run(scene& s, MPI_Comm communicator)
     }
     step.start();
     printOwnCellField(*method, step.particles());
-    charge.write(runTime.value(), step);
+    if (charge) {
+        charge->write(runTime.value(), step);
+    }
     fieldError.update(step);
     if (statistics) {
         statistics->start(step);
     }
-    const double deltaT = runTime.deltaTValue();
+    if (gas) {
+        gas->start(step.particles());
+    }
+    double deltaT = runTime.deltaTValue();
+    long demSteps = s.demSteps;
     while (runTime.loop()) {
         if (runTime.deltaTValue() != deltaT) {
             throw std::runtime_error("deltaT was changed during the run; stop and start again to change it.");
         }
         report.beginStep();
-        step.advance(s.demSteps);
+        step.advance(demSteps);
+        if (gas) {
+            gas->advance(step.particles());
+        }
         if (runTime.timeIndex() % s.settings.chargeInterval == 0) {
-            charge.write(runTime.value(), step);
+            if (charge) {
+                charge->write(runTime.value(), step);
+            }
+            if (gas) {
+                gas->writeLine(runTime.value());
+            }
         }
         write(s, step, *particles, times);
         {
@@ -105,7 +128,15 @@ void run(scene& s, MPI_Comm communicator)
                 statistics->update(step);
             }
         }
+        if (gas && report.logged()) {
+            Foam::Info << gas->describe().c_str() << Foam::endl;
+        }
         report.endStep(step);
+        if (gas && gas->nextDemSteps(demSteps) != demSteps) {
+            demSteps = gas->nextDemSteps(demSteps);
+            deltaT = static_cast<double>(demSteps) * s.dem->timeStep();
+            runTime.setDeltaT(deltaT, false);
+        }
     }
     report.printSummary(step, *s.dem, communicator);
     Foam::Info << "End\n" << Foam::endl;

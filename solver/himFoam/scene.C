@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "himFoam/scene.H"
 
+#include "gas/gasChecks.H"
 #include "output/runReport.H"
 #include "parallel/session.H"
 
@@ -38,6 +39,14 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
             s.mesh = openMesh(s.runTime(), complaints);
         }
     }
+    if (timeOpens && s.settings.gas) {
+        if (!(s.mesh.valid() && s.mesh().name() == Foam::polyMesh::defaultRegion)) {
+            s.ownGasMesh = openGasMesh(s.runTime(), complaints);
+        }
+        if (s.ownGasMesh.valid() || s.mesh.valid()) {
+            checkGasFields(s.gasMesh(), complaints);
+        }
+    }
     if (s.mesh.valid()) {
         s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints,
                                     s.settings.field.neutralisingBackground, s.settings.dielectrics);
@@ -61,13 +70,17 @@ void openDem(scene& s, MPI_Comm communicator)
     options.script = script;
     options.directory = casePath;
     options.logFile = script.path() / "log.liggghts";
+    options.needsCharge = s.settings.electrostatics;
+    options.hasGas = s.settings.gas.has_value();
     options.variables = {{"startTime", s.runTime().timeName()}};
     s.dem = openLiggghts(options, communicator);
 
     Complaints complaints = s.dem->check();
     s.demSteps = demStepsPerUpdate(s.runTime().deltaTValue(), s.dem->timeStep(), complaints);
-    checkWalls(s.settings, *s.dem, complaints);
-    checkDimensions(s.settings, *s.dem, complaints);
+    if (s.settings.electrostatics) {
+        checkWalls(s.settings, *s.dem, complaints);
+        checkDimensions(s.settings, *s.dem, complaints);
+    }
     findImageWalls(s.settings, *s.dem, complaints);
     choosePairSum(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
     if (s.poisson) {
@@ -77,7 +90,13 @@ void openDem(scene& s, MPI_Comm communicator)
     handSettingsToDem(s);
     checkUniformCharge(s.settings, *s.dem, communicator, complaints);
     s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);
+    if (s.settings.gas) {
+        checkGasScene(*s.settings.gas, s.gasMesh(), *s.dem, communicator, complaints);
+    }
     stopOnComplaints(complaints, "Case and DEM script together", communicator);
+    if (s.settings.gas) {
+        printGas(*s.settings.gas, s.gasMesh());
+    }
     printScene(s.settings, *s.dem, s.poisson.get(), s.runTime().deltaTValue(), s.demSteps);
 }
 

@@ -25,17 +25,25 @@ bool existsInCase(const Foam::fileName& path)
 caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& complaints)
 {
     caseSettings settings;
-    const fieldChoices choices = readFieldChoices(casePath, complaints);
-    settings.field = choices.selected;
-    settings.fieldError = choices.fieldError;
-    settings.dielectrics = choices.dielectrics;
-    settings.methodByAccuracy = choices.methodByAccuracy;
-    if (settings.methodByAccuracy && !hasElectricMesh(casePath)) {
-        settings.field.method = "pairwiseSum";
-        settings.field.pairwiseSum.images = true;
+    if (hasGas(casePath)) {
+        settings.gas = readGasProperties(casePath, complaints);
+        settings.electrostatics = checkedDictionary::exists(casePath, "constant/electrostaticProperties");
     }
-    settings.needsMesh =
-        settings.field.method.empty() ? hasElectricMesh(casePath) : FieldMethod::needsMesh(settings.field.method);
+    if (settings.electrostatics) {
+        const fieldChoices choices = readFieldChoices(casePath, complaints);
+        settings.field = choices.selected;
+        settings.fieldError = choices.fieldError;
+        settings.dielectrics = choices.dielectrics;
+        settings.methodByAccuracy = choices.methodByAccuracy;
+        if (settings.methodByAccuracy && !hasElectricMesh(casePath)) {
+            settings.field.method = "pairwiseSum";
+            settings.field.pairwiseSum.images = true;
+        }
+        settings.needsMesh =
+            settings.field.method.empty() ? hasElectricMesh(casePath) : FieldMethod::needsMesh(settings.field.method);
+    } else {
+        settings.fieldError.active = false;
+    }
 
     checkedDictionary properties(casePath, "constant/couplingProperties", complaints);
     const std::string script = properties.text("demScript");
@@ -45,7 +53,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
                                              + ". Give the path of the LIGGGHTS script "
                                                "relative to the case.");
     }
-    settings.walls = properties.section("walls").words();
+    settings.walls = properties.section("walls", !settings.electrostatics).words();
     settings.wallContactField = properties.oneOf("wallContactField", {"total", "self"}, "total") == "self"
                                     ? WallContactField::self
                                     : WallContactField::total;
@@ -53,6 +61,9 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
                                      ? OutsideMesh::excluded
                                      : OutsideMesh::error;
     settings.wallDistance = properties.has("wallDistance") ? properties.positive("wallDistance", 1) : 0;
+    if (settings.gas) {
+        settings.gas->exchange.particlesOutsideAllowed = settings.field.outsideMesh == OutsideMesh::excluded;
+    }
     settings.allowRemovals = properties.yesNo("allowRemovals", false);
     settings.fixedUniformCharge = properties.yesNo("fixedUniformCharge", false);
     settings.demCheckpoint = properties.yesNo("demCheckpoint", true);

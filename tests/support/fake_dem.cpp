@@ -24,6 +24,19 @@ void FakeDem::setField(const DemParticles& particles, const Points& field, const
     ++fieldsSet;
 }
 
+void FakeDem::setGasForces(const GasForces& forces)
+{
+    gas = forces;
+    gasGiven.setZero(mine.size(), 3);
+    gasPromised = (forces.velocity - mine.velocity).colwise() * forces.drag + forces.force;
+}
+
+void FakeDem::gasImpulse(Points& given, double duration, Points& promised) const
+{
+    given = gas.drag.size() > 0 ? gasGiven : Points::Zero(mine.size(), 3);
+    promised = gas.drag.size() > 0 ? Points(duration * gasPromised) : Points::Zero(mine.size(), 3);
+}
+
 void FakeDem::run(long steps)
 {
     if (!handedOver || heldField.rows() != mine.size()) {
@@ -32,6 +45,13 @@ void FakeDem::run(long steps)
     for (long step = 0; step < steps; ++step) {
         for (Index row = 0; row < mine.size(); ++row) {
             mine.velocity.row(row) += timeStep_ * mine.charge[row] / mine.mass[row] * heldField.row(row);
+            if (gas.drag.size() > 0) {
+                const double beta = gas.drag[row] / (1 + gas.drag[row] * timeStep_ / mine.mass[row]);
+                const Eigen::Array<double, 1, 3> counted =
+                    beta * (gas.velocity.row(row) - mine.velocity.row(row)) + gas.force.row(row);
+                gasGiven.row(row) += timeStep_ * counted;
+                mine.velocity.row(row) += timeStep_ / mine.mass[row] * (counted + gas.buoyancy.row(row));
+            }
             mine.position.row(row) += timeStep_ * mine.velocity.row(row);
             for (int axis = 0; axis < 3; ++axis) {
                 if (periodic_[static_cast<std::size_t>(axis)]) {

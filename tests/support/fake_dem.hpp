@@ -31,6 +31,8 @@ public:
     void particles(DemParticles& out) const override { out = mine; }
     void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
+    void setGasForces(const GasForces& forces) override;
+    void gasImpulse(Points& given, double duration, Points& promised) const override;
     std::int64_t particleCount() const override { return believedCount; }
     ChargeMovements movements() const override { return moved; }
     ContactCounts contacts() const override { return {}; }
@@ -45,6 +47,8 @@ public:
     bool handedOver = false;
     int fieldsSet = 0;
     Points heldField;                  ///< [V/m]
+    GasForces gas;                     ///< empty until setGasForces()
+    Points gasGiven, gasPromised;      ///< [N s], [N]
 
 private:
     Box box_;

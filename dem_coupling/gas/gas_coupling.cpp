@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/gas/gas_coupling.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace him {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+template <std::size_t N> std::array<double, N> sumOverRanks(std::array<double, N> values, MPI_Comm communicator)
+{
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(N), MPI_DOUBLE, MPI_SUM, communicator);
+    return values;
+}
+
+}  // namespace
+
+GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& settings, MPI_Comm communicator)
+    : dem_(dem),
+      mesh_(mesh),
+      settings_(settings),
+      communicator_(communicator),
+      law_(makeDragLaw(settings.drag)),
+      shares_(mesh, communicator, dem.box(), dem.periodic(), settings.voidFraction == VoidFractionModel::divided),
+      volume_(mesh.cellCount())
+{
+    for (Index cell = 0; cell < mesh_.cellCount(); ++cell) {
+        volume_[cell] = mesh_.cellVolume(cell);
+    }
+    sources_.voidFraction.setOnes(mesh_.cellCount());
+    sources_.drag.setZero(mesh_.cellCount());
+    sources_.dragMomentum.setZero(mesh_.cellCount(), 3);
+    sources_.owed.setZero(mesh_.cellCount(), 3);
+}
+
+void GasCoupling::toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume)
+{
+    shares_.deposit(ofRow, cell_);
+    cell_ /= volume_;
+    if (settings_.voidFraction == VoidFractionModel::smoothed) {
+        mesh_.smooth(cell_, settings_.smoothingLength);
+    }
+    perVolume = cell_;
+}
+
+void GasCoupling::toRows(const Points& ofCell, Points& ofRow)
+{
+    const Points* source = &ofCell;
+    if (settings_.voidFraction == VoidFractionModel::smoothed) {
+        // The adjoint of the deposit, so that a particle gets what the gas gives for it.
+        smoothed_ = ofCell;
+        for (int axis = 0; axis < 3; ++axis) {
+            cell_ = smoothed_.col(axis);
+            mesh_.smooth(cell_, settings_.smoothingLength);
+            smoothed_.col(axis) = cell_;
+        }
+        source = &smoothed_;
+    }
+    shares_.gather([source](Index cell) { return Vector3(source->row(cell).matrix().transpose()); }, ofRow);
+}
+
+void GasCoupling::begin(const DemParticles& particles)
+{
+    layVolumes(particles);
+}
+
+void GasCoupling::collect(const DemParticles& particles, const Points& velocity)
+{
+    layVolumes(particles);
+    layDrag(particles, velocity);
+    layOwed();
+}
+
+void GasCoupling::resume(const DemParticles& particles, const GasResult& result, double duration)
+{
+    layVolumes(particles);
+    layDrag(particles, result.velocity);
+    handBack(particles, result, duration);
+    books_.given = books_.promised;
+}
+
+void GasCoupling::layVolumes(const DemParticles& particles)
+{
+    shares_.locate(particles);
+    toCells(4 * pi / 3 * particles.radius.cube(), sources_.voidFraction);
+
+    // Sums: solid volume, particles outside, cells and volume below the bound, mass and its moments.
+    std::array<double, 8> sums{};
+    double smallest = 1;
+    for (Index cell = 0; cell < volume_.size(); ++cell) {
+        double& voidFraction = sources_.voidFraction[cell];
+        sums[0] += voidFraction * volume_[cell];
+        voidFraction = 1 - voidFraction;
+        smallest = std::min(smallest, voidFraction);
+        if (voidFraction < settings_.smallestVoidFraction) {
+            sums[2] += 1;
+            sums[3] += (settings_.smallestVoidFraction - voidFraction) * volume_[cell];
+            voidFraction = settings_.smallestVoidFraction;
+        }
+    }
+    sums[1] = static_cast<double>(shares_.rowsOutside());
+    sums[4] = particles.mass.sum();
+    for (int axis = 0; axis < 3; ++axis) {
+        sums[5 + static_cast<std::size_t>(axis)] = (particles.mass * particles.position.col(axis)).sum();
+    }
+    sums = sumOverRanks(sums, communicator_);
+    MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, communicator_);
+    summary_.solidVolume = sums[0];
+    summary_.particlesOutside = static_cast<std::int64_t>(sums[1]);
+    summary_.boundedCells = static_cast<std::int64_t>(sums[2]);
+    summary_.boundedVolume = sums[3];
+    summary_.smallestVoidFraction = smallest;
+    if (sums[4] > 0) {
+        summary_.massCentre = Vector3(sums[5], sums[6], sums[7]) / sums[4];
+    }
+    if (summary_.particlesOutside > 0 && !settings_.particlesOutsideAllowed) {
+        throw std::runtime_error(
+            std::to_string(summary_.particlesOutside)
+            + " particle(s) are outside the mesh of the gas. Check that the DEM walls lie on the mesh's, "
+              "or write particlesOutsideMesh excluded; in constant/couplingProperties");
+    }
+}
+
+void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
+{
+    Points atRow, voidAtRow;
+    toRows(velocity, atRow);
+    Points voidOfCell(volume_.size(), 3);
+    voidOfCell.setZero();
+    voidOfCell.col(0) = sources_.voidFraction;
+    toRows(voidOfCell, voidAtRow);
+
+    forces_.resize(particles.size());
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!shares_.inMesh(row)) {
+            continue;
+        }
+        const double slip = (atRow.row(row) - particles.velocity.row(row)).matrix().norm();
+        const DragPoint point{voidAtRow(row, 0), slip, 2 * particles.radius[row], settings_.density,
+                              settings_.viscosity};
+        const double beta = law_(point);
+        forces_.drag[row] = settings_.pressure == PressureModel::modelB ? dragOfModelB(beta, point.voidFraction) : beta;
+    }
+    toCells(forces_.drag, sources_.drag);
+    for (int axis = 0; axis < 3; ++axis) {
+        toCells(forces_.drag * particles.velocity.col(axis), sources_.dragMomentum.col(axis));
+    }
+}
+
+void GasCoupling::layOwed()
+{
+    dem_.gasImpulse(given_, lastDuration_, promised_);
+    std::array<double, 7> sums{};
+    for (int axis = 0; axis < 3; ++axis) {
+        toCells(given_.col(axis) - promised_.col(axis), sources_.owed.col(axis));
+        const auto column = static_cast<std::size_t>(axis);
+        sums[column] = given_.col(axis).sum();
+        sums[3 + column] = (sources_.owed.col(axis) * volume_).sum();
+    }
+    sums[6] = (sources_.drag * volume_).sum();
+    sums = sumOverRanks(sums, communicator_);
+    const Vector3 got(sums[0], sums[1], sums[2]);
+    const Vector3 laid(sums[3], sums[4], sums[5]);
+    books_.got += got;
+    // Before this solve the gas must have given what the particles have got. What the deposit does not know of (particles
+    // that left, meshes on which faces and cells do not weigh alike) is spread as the drag is.
+    const Vector3 missing = books_.got - books_.given - laid;
+    if (sums[6] > 0) {
+        for (int axis = 0; axis < 3; ++axis) {
+            sources_.owed.col(axis) += sources_.drag * (missing[axis] / sums[6]);
+        }
+    }
+}
+
+void GasCoupling::handBack(const DemParticles& particles, const GasResult& result, double duration)
+{
+    toRows(result.velocity, forces_.velocity);
+    if (settings_.pressure == PressureModel::modelA) {
+        toRows(result.pressureForce, gathered_);
+    }
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!shares_.inMesh(row)) {
+            continue;
+        }
+        const double volume = 4 * pi / 3 * particles.radius[row] * particles.radius[row] * particles.radius[row];
+        if (settings_.pressure == PressureModel::modelA) {
+            forces_.force.row(row) = volume * gathered_.row(row);
+        }
+        forces_.buoyancy.row(row) = -settings_.density * volume * settings_.gravity.transpose().array();
+    }
+    dem_.setGasForces(forces_);
+    lastDuration_ = duration;
+    std::array<double, 3> sums{};
+    for (int axis = 0; axis < 3; ++axis) {
+        sums[static_cast<std::size_t>(axis)] =
+            (forces_.drag * (forces_.velocity.col(axis) - particles.velocity.col(axis)) + forces_.force.col(axis))
+                .sum();
+    }
+    sums = sumOverRanks(sums, communicator_);
+    summary_.force = Vector3(sums[0], sums[1], sums[2]);
+    books_.given += result.given;
+    books_.promised = duration * summary_.force;
+    books_.moved += result.given.norm();
+}
+
+}  // namespace him

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/gas/drag_law.hpp"
+#include "dem_coupling/gas/gas_mesh.hpp"
+#include "dem_coupling/gas/gas_settings.hpp"
+#include "dem_coupling/gas/particle_shares.hpp"
+
+namespace him {
+
+/// What the particles are to the gas, one value per local cell.
+struct GasSources {
+    Scalars voidFraction;  ///< [-], at least GasSettings::smallestVoidFraction
+    Scalars drag;          ///< sum of beta per volume [kg/(m3 s)]
+    Points dragMomentum;   ///< sum of beta v per volume [N/m3]
+    Points owed;           ///< impulse per volume that the gas still has to give beside drag and pressure [N s/m3]
+};
+
+/// What the gas solve has found, one value per local cell, and its sum.
+struct GasResult {
+    Points velocity;                  ///< [m/s]
+    Points pressureForce;             ///< -grad p without the hydrostatic part [N/m3]
+    Vector3 given = Vector3::Zero();  ///< impulse that the gas lost to the particles in this solve, all ranks [N s]
+};
+
+/// Sums over all ranks since the start.
+struct MomentumBooks {
+    Vector3 given = Vector3::Zero();  ///< by the gas [N s]
+    Vector3 got = Vector3::Zero();    ///< by the particles, as their integrator applied it [N s]
+    /// By the forces of the last gas step for one more of the same length: what `given` is ahead of `got` [N s].
+    Vector3 promised = Vector3::Zero();
+    double moved = 0;  ///< sum of the sizes of all that was given [N s]
+    /// What the gas gave otherwise than the particles were promised, in the last solve; the next one makes up for it, so it
+    /// never accumulates. Relative to all that was moved [-].
+    double mismatch() const { return moved > 0 ? (given - got - promised).norm() / moved : 0; }
+};
+
+/// Numbers of one gas step, all ranks.
+struct GasSummary {
+    double solidVolume = 0;  ///< of particles in the mesh [m3]
+    std::int64_t particlesOutside = 0;
+    std::int64_t boundedCells = 0;         ///< cells whose void fraction fell below the smallest allowed
+    double boundedVolume = 0;              ///< solid volume that those cells hold above it [m3]
+    double smallestVoidFraction = 1;       ///< before it was bounded
+    Vector3 massCentre = Vector3::Zero();  ///< of the particles [m]
+    Vector3 force = Vector3::Zero();  ///< of drag and pressure gradient on the particles, at the end of the step [N]
+};
+
+/// The exchange of momentum between gas and particles, on any mesh and DEM. Holds no gas equation.
+///
+/// Order of one gas step of length dt: the DEM runs under held forces; collect() lays the particles on the mesh; the gas
+/// solves with the drag implicit in its own velocity; handBack() gives velocity and pressure force to the particles. What
+/// a particle then gets differs a little from what the gas gave for it, because its velocity moves on and it hits others:
+/// collect() returns the difference to the gas as GasSources::owed. Momentum of gas and particles together is thus kept.
+class GasCoupling {
+public:
+    GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& settings, MPI_Comm communicator);
+
+    /// Lays the particles on the mesh without any drag: for the void fraction before the first step. Collective.
+    void begin(const DemParticles& particles);
+    /// Sources of the gas step that ends now. Collective. Throws std::runtime_error when a particle is outside the mesh and
+    /// may not be.
+    /// @param velocity  of the gas in every local cell, last known [m/s]
+    void collect(const DemParticles& particles, const Points& velocity);
+    /// Hands the gas to the particles of collect(). Collective.
+    /// @param duration  of the gas step [s]
+    void handBack(const DemParticles& particles, const GasResult& result, double duration);
+
+    /// Takes up a run where it stopped: the gas acts on the particles as its last solve left it. Collective.
+    /// @param result  of that solve; what it gave is found from the particles
+    void resume(const DemParticles& particles, const GasResult& result, double duration);
+
+    const GasSources& sources() const { return sources_; }
+    const GasSummary& summary() const { return summary_; }
+    const MomentumBooks& books() const { return books_; }
+
+private:
+    void layVolumes(const DemParticles& particles);
+    void layDrag(const DemParticles& particles, const Points& velocity);
+    void layOwed();
+    void toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume);
+    void toRows(const Points& ofCell, Points& ofRow);
+
+    DemPort& dem_;
+    const GasMesh& mesh_;
+    GasSettings settings_;
+    MPI_Comm communicator_;
+    DragLaw law_;
+    ParticleShares shares_;
+    GasSources sources_;
+    GasForces forces_;
+    GasSummary summary_;
+    MomentumBooks books_;
+    double lastDuration_ = 0;  ///< [s]
+    Scalars volume_, cell_;
+    Points given_, promised_, smoothed_, gathered_;
+};
+
+}  // namespace him

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gas/gasChecks.H"
+
+#include "settings/checkedDictionary.H"
+#include "settings/foamExceptions.H"
+
+#include "OSspecific.H"
+#include "coupledPolyPatch.H"
+#include "emptyPolyPatch.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
+#include "fvc.H"
+#include "volFields.H"
+#include "wedgePolyPatch.H"
+
+#include <cmath>
+
+namespace him {
+
+namespace {
+
+bool onAllRanks(bool holds)
+{
+    return Foam::returnReduce(holds, Foam::andOp<bool>());
+}
+
+/// The field of that name at the start time, or nothing and a complaint. Collective.
+template <class Field>
+Foam::autoPtr<Field> readField(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
+                               const std::string& units, const std::string& purpose, Complaints& complaints)
+{
+    const std::string where = mesh.time().timeName() + "/" + name;
+    const Foam::IOobject header(name, mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE,
+                                false);
+    Foam::IOobject probe(header);
+    if (!onAllRanks(probe.typeHeaderOk<Field>(true))) {
+        complaints.add(where,
+                       "there is no such field (" + Field::typeName + ") at the start time. It gives " + purpose + ".");
+        return nullptr;
+    }
+    Foam::autoPtr<Field> field;
+    const foamExceptions throwing;
+    try {
+        field.reset(new Field(header, mesh));
+    } catch (const Foam::error& error) {
+        complaints.add(where, firstLine(error));
+    }
+    if (!onAllRanks(field.valid())) {
+        return nullptr;
+    }
+    if (field().dimensions() != dimensions) {
+        complaints.add(where + ": dimensions", "found other units. Write dimensions " + units + ";");
+    }
+    return field;
+}
+
+/// Inflow, wall and outlet must be told apart: velocity or pressure has to be given on every patch.
+void checkPatches(const Foam::volVectorField& U, const Foam::volScalarField& p, Complaints& complaints)
+{
+    const std::string time = U.mesh().time().timeName();
+    forAll(U.boundaryField(), index)
+    {
+        const Foam::fvPatchVectorField& velocity = U.boundaryField()[index];
+        const Foam::fvPatchScalarField& pressure = p.boundaryField()[index];
+        const Foam::polyPatch& patch = velocity.patch().patch();
+        if (Foam::isA<Foam::emptyPolyPatch>(patch) || Foam::isA<Foam::wedgePolyPatch>(patch)) {
+            complaints.add(
+                "constant/polyMesh/boundary: " + patch.name(),
+                "found a patch of type " + patch.type()
+                    + ". Particles move in three dimensions. Use a mesh with all three; symmetry or cyclic patches "
+                      "may stand in for the missing one.");
+            continue;
+        }
+        if (Foam::polyPatch::constraintType(patch.type())) {
+            continue;
+        }
+        const bool fluxPressure = Foam::isA<Foam::fixedFluxPressureFvPatchScalarField>(pressure);
+        if (velocity.fixesValue() && !fluxPressure && !pressure.fixesValue()) {
+            complaints.add(time + "/p: " + patch.name(),
+                           "found " + pressure.type()
+                               + ", but the velocity is given there, and the pressure must follow "
+                                 "from it. Write type fixedFluxPressure; value uniform 0;");
+        } else if (!velocity.fixesValue() && !pressure.fixesValue()) {
+            complaints.add(
+                time + "/U: " + patch.name(),
+                "found " + velocity.type() + " for the velocity and " + pressure.type()
+                    + " for the pressure: neither is given, so nothing says how much gas passes. Give an inlet a "
+                      "fixedValue in U (or interstitialInletVelocity with alpha voidFraction), an outlet one in p.");
+        }
+    }
+}
+
+}  // namespace
+
+Foam::autoPtr<Foam::fvMesh> openGasMesh(const Foam::Time& runTime, Complaints& complaints)
+{
+    const std::string where = std::string("constant") / Foam::fileName(Foam::polyMesh::meshSubDir);
+    bool complete = true;
+    if (!onAllRanks(Foam::isFile(runTime.path() / where / "owner"))) {
+        complaints.add(
+            where, "there is no mesh in " + runTime.path() / where
+                       + ", but the gas needs one. Make it with blockMesh, and cut it with decomposePar for a parallel "
+                         "run with the same number of ranks.");
+        complete = false;
+    }
+    for (const char* file : {"system/fvSchemes", "system/fvSolution"}) {
+        if (!checkedDictionary::exists(runTime.globalPath(), file)) {
+            complaints.add(
+                file, "there is no such file in the case; the gas needs it. See solver/doc/gas.md for its entries.");
+            complete = false;
+        }
+    }
+    if (!complete) {
+        return nullptr;
+    }
+    Foam::autoPtr<Foam::fvMesh> mesh;
+    const foamExceptions throwing;
+    try {
+        mesh.reset(new Foam::fvMesh(
+            Foam::IOobject(Foam::polyMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)));
+    } catch (const Foam::error& error) {
+        complaints.add(where, firstLine(error));
+    }
+    return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
+}
+
+void checkGasFields(const Foam::fvMesh& mesh, Complaints& complaints)
+{
+    // Conditions of the patches look for these by name.
+    const Foam::volScalarField voidFraction(
+        Foam::IOobject("voidFraction", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
+        mesh, Foam::dimensionedScalar("one", Foam::dimless, 1));
+    const auto U = readField<Foam::volVectorField>("U", mesh, Foam::dimVelocity, "[0 1 -1 0 0 0 0]",
+                                                   "the velocity of the gas on every patch", complaints);
+    const auto p = readField<Foam::volScalarField>(
+        "p", mesh, Foam::dimPressure, "[1 -1 -2 0 0 0 0]",
+        "the pressure of the gas [Pa], without its hydrostatic part, on every patch", complaints);
+    if (U.valid() && p.valid()) {
+        checkPatches(U(), p(), complaints);
+    }
+}
+
+void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const DemPort& dem, MPI_Comm communicator,
+                   Complaints& complaints)
+{
+    const double deltaT = mesh.time().deltaTValue();
+    if (deltaT < dem.timeStep() * (1 - 1e-9)) {
+        complaints.add("system/controlDict: deltaT", "the gas step " + shown(deltaT) + " s is below the DEM step "
+                                                         + shown(dem.timeStep())
+                                                         + " s. Raise deltaT, or lower timestep in the DEM script.");
+    }
+    if (gas.maxDeltaT > 0 && gas.maxDeltaT < dem.timeStep() * (1 - 1e-9)) {
+        complaints.add(std::string(gasFile) + ": maxDeltaT",
+                       "the largest gas step " + shown(gas.maxDeltaT) + " s is below the DEM step "
+                           + shown(dem.timeStep()) + " s. Raise it, or lower timestep in the DEM script.");
+    }
+    if (gas.exchange.voidFraction != VoidFractionModel::centre) {
+        return;
+    }
+    DemParticles particles;
+    dem.particles(particles);
+    double largest = particles.size() > 0 ? 2 * particles.radius.maxCoeff() : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+    const double cell = std::cbrt(Foam::gMin(mesh.cellVolumes()));
+    if (largest > gas.largestParticle * cell) {
+        complaints.add(std::string(gasFile) + ": voidFraction",
+                       "the largest particle, " + shown(largest) + " m, is " + shown(largest / cell, 3)
+                           + " times the smallest cell, " + shown(cell)
+                           + " m, and `centre` lays it into one cell; allowed is " + shown(gas.largestParticle, 3)
+                           + ". Write voidFraction divided; or smoothed; use larger cells, or "
+                           + "raise largestParticle.");
+    }
+}
+
+void printGas(const gasProperties& gas, const Foam::fvMesh& mesh)
+{
+    const GasSettings& exchange = gas.exchange;
+    Foam::Info << "\nGas: density " << exchange.density << " kg/m3, viscosity " << exchange.viscosity << " Pa s, drag "
+               << exchange.drag.c_str() << ", pressure gradient by "
+               << (exchange.pressure == PressureModel::modelA ? "modelA" : "modelB") << ", void fraction "
+               << voidFractionModelNames()[static_cast<std::size_t>(exchange.voidFraction)].c_str() << ", laminar, "
+               << Foam::returnReduce(mesh.nCells(), Foam::sumOp<Foam::label>()) << " cells\n";
+    if (gas.adjustTimeStep) {
+        Foam::Info << "    gas step by Courant number " << gas.maxCo << ", at most "
+                   << (gas.maxDeltaT > 0 ? gas.maxDeltaT : mesh.time().deltaTValue()) << " s\n";
+    }
+    Foam::Info << Foam::endl;
+}
+
+}  // namespace him

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gas/gasFlow.H"
+
+#include "foamPoissonMesh/conversions.H"
+
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
+#include "fvc.H"
+#include "fvm.H"
+#include "zeroGradientFvPatchFields.H"
+
+namespace him {
+
+using namespace Foam;
+
+namespace {
+
+IOobject resultIO(const word& name, const fvMesh& mesh, IOobject::writeOption write)
+{
+    return IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, write);
+}
+
+IOobject givenIO(const word& name, const fvMesh& mesh)
+{
+    return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+}
+
+const dimensionSet dimImpulsePerVolume = dimDensity * dimVelocity;
+
+}  // namespace
+
+gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings)
+    : mesh_(mesh),
+      settings_(settings),
+      rho_("density", dimDensity, settings.density),
+      nu_("nu", dimViscosity, settings.viscosity / settings.density),
+      alpha_(resultIO("voidFraction", mesh, IOobject::AUTO_WRITE), mesh, dimensionedScalar("one", dimless, 1),
+             zeroGradientFvPatchScalarField::typeName),
+      U_(givenIO("U", mesh), mesh),
+      p_(givenIO("p", mesh), mesh),
+      phi_(IOobject("phi", mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE),
+           fvc::flux(U_)),
+      alphaf_(resultIO("voidFractionf", mesh, IOobject::NO_WRITE), mesh, dimensionedScalar("one", dimless, 1)),
+      pressureFlux_(resultIO("pressureFlux", mesh, IOobject::NO_WRITE), mesh,
+                    dimensionedScalar(dimPressure * dimLength, Zero)),
+      K_(resultIO("dragPerGasMass", mesh, IOobject::NO_WRITE), mesh, dimensionedScalar(inv(dimTime), Zero),
+         zeroGradientFvPatchScalarField::typeName),
+      S_(resultIO("dragMomentum", mesh, IOobject::NO_WRITE), mesh, dimensionedVector(dimAcceleration, Zero),
+         extrapolatedCalculatedFvPatchVectorField::typeName),
+      continued_(
+          IOobject("phi", mesh.time().timeName(), mesh, IOobject::MUST_READ).typeHeaderOk<surfaceScalarField>(true))
+{
+    mesh_.setFluxRequired(p_.name());
+    result_.velocity.setZero(mesh_.nCells(), 3);
+    result_.pressureForce.setZero(mesh_.nCells(), 3);
+    const volVectorField gradient(fvc::reconstruct(fvc::snGrad(p_) * mesh_.magSf()));
+    forAll(U_, cell)
+    {
+        result_.velocity.row(cell) = toEigen(U_[cell]).transpose().array();
+        result_.pressureForce.row(cell) = -toEigen(gradient[cell]).transpose().array();
+    }
+}
+
+void gasFlow::setVoidFraction(const Scalars& voidFraction)
+{
+    std::copy(voidFraction.begin(), voidFraction.end(), alpha_.primitiveFieldRef().begin());
+    alpha_.correctBoundaryConditions();
+    alphaf_ = fvc::interpolate(alpha_, "interpolate(voidFraction)");
+}
+
+void gasFlow::setDrag(const GasSources& sources, double deltaT)
+{
+    forAll(K_, cell)
+    {
+        K_[cell] = sources.drag[cell] / settings_.density;
+        S_[cell] = toFoam(((sources.dragMomentum.row(cell) - sources.owed.row(cell) / deltaT) / settings_.density)
+                              .matrix()
+                              .transpose());
+    }
+    K_.correctBoundaryConditions();
+    S_.correctBoundaryConditions();
+}
+
+void gasFlow::solve(const GasSources& sources)
+{
+    const dictionary controls = mesh_.solutionDict().subOrEmptyDict("PIMPLE");
+    const label outer = controls.lookupOrDefault<label>("nOuterCorrectors", 1);
+    const label corrections = controls.lookupOrDefault<label>("nCorrectors", 2);
+    const double deltaT = mesh_.time().deltaTValue();
+
+    alpha_.storeOldTimes();
+    U_.storeOldTimes();
+    phi_.storeOldTimes();
+    setVoidFraction(sources.voidFraction);
+    setDrag(sources, deltaT);
+    for (label iteration = 0; iteration < outer; ++iteration) {
+        const surfaceScalarField alphaPhi("alphaPhi", alphaf_ * phi_);
+        const volScalarField alphaNu("alphaNu", alpha_ * nu_);
+        fvVectorMatrix UEqn(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi, U_, "div(alphaPhi,U)")
+                            - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi), U_)
+                            - fvm::laplacian(alphaNu, U_, "laplacian(alphaNu,U)")
+                            - fvc::div(alphaNu * dev2(T(fvc::grad(U_))), "div(alphaNu*dev2(T(grad(U))))"));
+        const volScalarField A(UEqn.A());
+        for (label corrector = 0; corrector < corrections; ++corrector) {
+            correctPressure(A, UEqn.H(), iteration == outer - 1 && corrector == corrections - 1);
+        }
+    }
+    collectResult(deltaT);
+}
+
+void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, bool last)
+{
+    const surfaceScalarField Kf(fvc::interpolate(K_, "interpolate(drag)"));
+    const surfaceScalarField inverse("inverseAK", 1 / (fvc::interpolate(A, "interpolate(A)") + Kf));
+    const surfaceScalarField Sf(fvc::flux(S_));
+    // The flux carries its own memory of the step before; interpolated cell velocities would smear it.
+    surfaceScalarField memory((fvc::interpolate(alpha_.oldTime(), "interpolate(voidFraction)") * phi_.oldTime()
+                               - fvc::flux(alpha_.oldTime() * U_.oldTime()))
+                              / mesh_.time().deltaT());
+    for (auto& patch : memory.boundaryFieldRef()) {
+        if (!patch.coupled()) {
+            patch = Zero;
+        }
+    }
+    surfaceScalarField phiH("phiH", (fvc::flux(H) + memory + Sf) * inverse);
+    const surfaceScalarField share(settings_.pressure == PressureModel::modelA
+                                       ? surfaceScalarField(alphaf_ / rho_)
+                                       : surfaceScalarField(alphaf_ / alphaf_ / rho_));
+    const surfaceScalarField rAf("rAf", share * inverse);
+
+    auto& pressure = p_.boundaryFieldRef();
+    forAll(pressure, patch)
+    {
+        const fvsPatchScalarField& inflow = phiH.boundaryField()[patch];
+        const scalarField given(U_.boundaryField()[patch] & mesh_.Sf().boundaryField()[patch]);
+        if (isA<fixedFluxPressureFvPatchScalarField>(pressure[patch])) {
+            refCast<fixedFluxPressureFvPatchScalarField>(pressure[patch])
+                .updateSnGrad((inflow - given) / (mesh_.magSf().boundaryField()[patch] * rAf.boundaryField()[patch]));
+        } else if (U_.boundaryField()[patch].fixesValue() && !pressure[patch].fixesValue()) {
+            phiH.boundaryFieldRef()[patch] = given;
+        }
+    }
+
+    const dictionary controls = mesh_.solutionDict().subOrEmptyDict("PIMPLE");
+    const label nonOrthogonal = controls.lookupOrDefault<label>("nNonOrthogonalCorrectors", 0);
+    for (label repeat = 0; repeat <= nonOrthogonal; ++repeat) {
+        fvScalarMatrix pEqn(fvm::laplacian(alphaf_ * rAf, p_, "laplacian(rAf,p)")
+                            == fvc::ddt(alpha_) + fvc::div(alphaf_ * phiH));
+        pEqn.setReference(controls.lookupOrDefault<label>("pRefCell", 0),
+                          controls.lookupOrDefault<scalar>("pRefValue", 0));
+        pEqn.solve(mesh_.solver(p_.select(last && repeat == nonOrthogonal)));
+        if (repeat == nonOrthogonal) {
+            const surfaceScalarField pressureFlow(pEqn.flux() / alphaf_);
+            phi_ = phiH - pressureFlow;
+            pressureFlux_ = pressureFlow / rAf;
+        }
+    }
+    const surfaceScalarField balance(Sf - Kf * phi_ - share * pressureFlux_);
+    U_ = (H + K_ * fvc::reconstruct(phi_) + fvc::reconstruct(balance)) / (A + K_);
+    U_.correctBoundaryConditions();
+}
+
+void gasFlow::collectResult(double deltaT)
+{
+    const surfaceScalarField Kf(fvc::interpolate(K_, "interpolate(drag)"));
+    const volVectorField gradient(fvc::reconstruct(pressureFlux_));
+    const volVectorField drag(rho_
+                              * (K_ * (U_ - fvc::reconstruct(phi_)) + fvc::reconstruct(Kf * phi_ - fvc::flux(S_))));
+    vector given = gSum(vectorField(drag.primitiveField() * mesh_.V().field())) * deltaT;
+    if (settings_.pressure == PressureModel::modelA) {
+        const volVectorField carried(fvc::reconstruct((1 - alphaf_) * pressureFlux_));
+        given -= gSum(vectorField(carried.primitiveField() * mesh_.V().field())) * deltaT;
+    }
+    result_.given = toEigen(given);
+    forAll(U_, cell)
+    {
+        result_.velocity.row(cell) = toEigen(U_[cell]).transpose().array();
+        result_.pressureForce.row(cell) = -toEigen(gradient[cell]).transpose().array();
+    }
+}
+
+double gasFlow::courantNumber() const
+{
+    const scalarField sums(fvc::surfaceSum(mag(phi_))().primitiveField() / mesh_.V().field());
+    return 0.5 * gMax(sums) * mesh_.time().deltaTValue();
+}
+
+Vector3 gasFlow::momentum() const
+{
+    return toEigen(rho_.value() * gSum(vectorField(alpha_.primitiveField() * U_.primitiveField() * mesh_.V().field())));
+}
+
+}  // namespace him

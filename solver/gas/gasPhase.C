@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gas/gasPhase.H"
+
+#include "settings/checkedDictionary.H"
+
+#include "OSspecific.H"
+#include "coupledPolyPatch.H"
+#include "emptyPolyPatch.H"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace him {
+
+namespace {
+
+/// A gas step grows by no more than this factor at once.
+constexpr double growth = 1.2;
+
+std::vector<Foam::label> listedPatches(const Foam::fvMesh& mesh)
+{
+    std::vector<Foam::label> listed;
+    for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
+        if (!Foam::isA<Foam::coupledPolyPatch>(patch) && !Foam::isA<Foam::emptyPolyPatch>(patch)) {
+            listed.push_back(patch.index());
+        }
+    }
+    return listed;
+}
+
+void append(std::ostream& line, const Vector3& vector)
+{
+    line << ' ' << vector[0] << ' ' << vector[1] << ' ' << vector[2];
+}
+
+}  // namespace
+
+gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, DemPort& dem, PhaseTimes& times,
+                   MPI_Comm communicator)
+    : mesh_(mesh),
+      properties_(properties),
+      dem_(dem),
+      times_(times),
+      cells_(mesh),
+      flow_(mesh, properties.exchange),
+      coupling_(dem, cells_, properties.exchange, communicator)
+{
+    if (properties_.maxDeltaT == 0) {
+        properties_.maxDeltaT = mesh.time().deltaTValue();
+    }
+    if (!Foam::Pstream::master()) {
+        return;
+    }
+    const Foam::fileName folder = mesh.time().globalPath() / "postProcessing" / "gas" / mesh.time().timeName();
+    Foam::mkDir(folder);
+    file_.open(folder / "gas.dat");
+    file_.precision(12);
+    file_
+        << "# SI units. p_<patch>: area average of p without the hydrostatic part; in_<patch>: inflow of gas [m3/s].\n"
+        << "# force: of drag and pressure gradient on all particles. given, got: impulse, sums since the start.\n"
+        << "# Time deltaT Co";
+    for (const Foam::label patch : listedPatches(mesh_)) {
+        const Foam::word& name = mesh_.boundaryMesh()[patch].name();
+        file_ << " p_" << name << " in_" << name;
+    }
+    file_ << " forceX forceY forceZ massCentreX massCentreY massCentreZ solidVolume smallestVoidFraction boundedCells"
+             " boundedVolume givenX givenY givenZ gotX gotY gotZ mismatch"
+          << std::endl;
+}
+
+void gasPhase::start(const DemParticles& particles)
+{
+    const PhaseTimer timer(times_, Phase::gas);
+    if (flow_.continued()) {
+        coupling_.resume(particles, flow_.result(), mesh_.time().deltaTValue());
+    } else {
+        coupling_.begin(particles);
+    }
+    flow_.setVoidFraction(coupling_.sources().voidFraction);
+}
+
+void gasPhase::advance(const DemParticles& particles)
+{
+    {
+        const PhaseTimer timer(times_, Phase::exchange);
+        coupling_.collect(particles, flow_.result().velocity);
+    }
+    {
+        const PhaseTimer timer(times_, Phase::gas);
+        flow_.solve(coupling_.sources());
+        courant_ = flow_.courantNumber();
+    }
+    const PhaseTimer timer(times_, Phase::exchange);
+    coupling_.handBack(particles, flow_.result(), mesh_.time().deltaTValue());
+}
+
+long gasPhase::nextDemSteps(long current) const
+{
+    if (!properties_.adjustTimeStep) {
+        return current;
+    }
+    const double byCourant = courant_ > 0 ? properties_.maxCo / courant_ : growth;
+    const double wanted = static_cast<double>(current) * std::min(growth, byCourant);
+    // Growth of less than one step must not be rounded away for ever.
+    const long steps = byCourant >= growth ? std::lround(std::ceil(wanted)) : std::lround(std::floor(wanted));
+    const long most = std::lround(std::floor(properties_.maxDeltaT / dem_.timeStep() * (1 + 1e-9)));
+    return std::max(1L, std::min(steps, most));
+}
+
+void gasPhase::writeLine(double time)
+{
+    std::ostringstream patches;
+    patches.precision(12);
+    for (const Foam::label patch : listedPatches(mesh_)) {
+        const Foam::scalarField& areas = mesh_.magSf().boundaryField()[patch];
+        const double area = Foam::gSum(areas);
+        patches << ' ' << Foam::gSum(Foam::scalarField(areas * flow_.pressure().boundaryField()[patch])) / area << ' '
+                << -Foam::gSum(Foam::scalarField(flow_.voidFraction().boundaryField()[patch]
+                                                 * flow_.flux().boundaryField()[patch]));
+    }
+    if (!file_.is_open()) {
+        return;
+    }
+    const GasSummary& summary = coupling_.summary();
+    const MomentumBooks& books = coupling_.books();
+    file_ << time << ' ' << mesh_.time().deltaTValue() << ' ' << courant_ << patches.str();
+    append(file_, summary.force);
+    append(file_, summary.massCentre);
+    file_ << ' ' << summary.solidVolume << ' ' << summary.smallestVoidFraction << ' ' << summary.boundedCells << ' '
+          << summary.boundedVolume;
+    append(file_, books.given);
+    append(file_, books.got);
+    file_ << ' ' << books.mismatch() << std::endl;
+}
+
+std::string gasPhase::describe() const
+{
+    const GasSummary& summary = coupling_.summary();
+    std::string line = "Gas: deltaT " + shown(mesh_.time().deltaTValue()) + " s, Courant number " + shown(courant_, 3)
+                       + ", force on the particles (" + shown(summary.force[0]) + " " + shown(summary.force[1]) + " "
+                       + shown(summary.force[2]) + ") N, smallest void fraction "
+                       + shown(summary.smallestVoidFraction, 3);
+    if (summary.boundedCells > 0) {
+        line += ", below " + shown(properties_.exchange.smallestVoidFraction, 3) + " in "
+                + std::to_string(summary.boundedCells) + " cell(s), which hold " + shown(summary.boundedVolume, 3)
+                + " m3 more than the gas sees";
+    }
+    if (summary.particlesOutside > 0) {
+        line += ", outside the mesh " + std::to_string(summary.particlesOutside) + " particle(s)";
+    }
+    return line;
+}
+
+}  // namespace him
