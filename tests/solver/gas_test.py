@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A gas around a falling sphere: terminal velocity, momentum, void-fraction models, ranks, and refusals, through himFoam."""
+
+import math
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+from tiny_case import TinyCase
+
+CASE = pathlib.Path(__file__).resolve().parents[2] / "cases/singleSettling"
+TERMINAL = 1.06136          # [m/s] of 277 um polyethylene in nitrogen by Schiller and Naumann, DragLaw test
+MASS = 960*math.pi/6*277e-6**3
+
+
+class Gas(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.case = TinyCase.copy(CASE, folder.name)
+        shutil.rmtree(self.case.path / "postProcessing", ignore_errors=True)
+        self.case.replace("system/controlDict", "endTime         0.56;", "endTime         0.05;")
+
+    def start_at(self, speed):
+        self.case.replace("DEM/in.settling", "density 960", "density 960 vz %r" % -speed)
+
+    def table(self):
+        lines = (self.case.path / "postProcessing/gas/0/gas.dat").read_text().splitlines()
+        names = [line for line in lines if line.startswith("# Time")][0][2:].split()
+        return [dict(zip(names, map(float, line.split()))) for line in lines if not line.startswith("#")]
+
+    def run_case(self, ranks=1):
+        self.case.tool("blockMesh")
+        if ranks > 1:
+            self.case.decompose(ranks)
+        result = self.case.run(ranks=ranks)
+        self.assertEqual(result.code, 0, result.text[-2000:])
+        return self.table()
+
+    def speed(self, rows, last=20):
+        first, final = rows[-last], rows[-1]
+        return -(final["massCentreZ"] - first["massCentreZ"])/(final["Time"] - first["Time"])
+
+    def refused(self, *texts):
+        self.case.tool("blockMesh")
+        result = self.case.run("-dry-run")
+        flat = " ".join(result.text.split())
+        for text in texts:
+            self.assertIn(text, flat, result.text[-2000:])
+        self.assertEqual(result.code, 1)
+
+    def test_a_sphere_at_its_terminal_velocity_keeps_it(self):
+        self.start_at(TERMINAL)
+        rows = self.run_case()
+        self.assertAlmostEqual(self.speed(rows), TERMINAL, delta=0.005*TERMINAL)
+        self.assertAlmostEqual(rows[-1]["forceZ"], MASS*9.81, delta=0.01*MASS*9.81)
+
+    def test_what_gas_and_particles_exchange_is_momentum_of_the_particle(self):
+        self.start_at(0.2)
+        rows = self.run_case()
+        got = rows[-1]["gotZ"] - rows[0]["gotZ"]
+        time = rows[-1]["Time"] - rows[0]["Time"]
+        volume = math.pi/6*277e-6**3
+        # Speed at the two ends, from the drag that the table gives, is the integral of all forces.
+        fall = (rows[-1]["massCentreZ"] - rows[-2]["massCentreZ"])/5e-4 - (rows[1]["massCentreZ"] - rows[0]["massCentreZ"])/5e-4
+        time = rows[-2]["Time"] - rows[0]["Time"]
+        got = 0.5*(rows[-1]["gotZ"] + rows[-2]["gotZ"]) - 0.5*(rows[0]["gotZ"] + rows[1]["gotZ"])
+        expected = MASS*fall + (MASS - 1.149*volume)*9.81*time
+        self.assertAlmostEqual(got, expected, delta=2e-3*abs(expected))
+        # The gas is ahead by the last solve only.
+        ahead = rows[-1]["givenZ"] - rows[-1]["gotZ"]
+        self.assertAlmostEqual(ahead, rows[-1]["forceZ"]*5e-4, delta=1e-9*abs(rows[-1]["givenZ"]))
+        self.assertLess(max(row["mismatch"] for row in rows), 1e-12)
+
+    def test_solid_volume_is_kept_by_every_model(self):
+        self.start_at(1.0)
+        volume = math.pi/6*277e-6**3
+        for model in ("centre;", "divided;", "smoothed; smoothingLength 16e-3;"):
+            with self.subTest(model=model):
+                text = (CASE / "constant/gasProperties").read_text().replace("divided;", model)
+                (self.case.path / "constant/gasProperties").write_text(text)
+                for row in self.run_case():
+                    self.assertAlmostEqual(row["solidVolume"], volume, delta=1e-9*volume)
+
+    def test_two_ranks_give_the_fall_of_one(self):
+        self.start_at(0.9)
+        one = self.run_case()
+        two = self.run_case(ranks=2)
+        self.assertAlmostEqual(self.speed(two), self.speed(one), delta=1e-6)
+
+    def test_refuses_a_gas_without_a_void_fraction_model(self):
+        self.case.replace("constant/gasProperties", "voidFraction    divided;", "")
+        self.refused("constant/gasProperties: voidFraction: the entry is missing")
+
+    def test_refuses_an_unknown_drag_law_by_listing_the_known(self):
+        self.case.replace("constant/gasProperties", "SchillerNaumann", "Stokes")
+        self.refused("drag: unknown name `Stokes`; known: WenYu, SchillerNaumann, Gidaspow, Beetstra, DiFelice, KochHill")
+
+    def test_refuses_a_patch_where_neither_velocity_nor_pressure_is_given(self):
+        self.case.replace("0/U", "floor { type noSlip; }", "floor { type zeroGradient; }")
+        self.refused("0/U: floor: found zeroGradient for the velocity and fixedFluxPressure for the pressure")
+
+    def test_refuses_a_pressure_that_does_not_follow_a_given_velocity(self):
+        self.case.replace("0/p", "floor { type fixedFluxPressure; value uniform 0; }", "floor { type zeroGradient; }")
+        self.refused("0/p: floor: found zeroGradient", "fixedFluxPressure")
+
+    def test_refuses_a_gas_step_below_the_dem_step(self):
+        self.case.replace("system/controlDict", "deltaT          5e-4;", "deltaT          5e-6;")
+        self.refused("the gas step 5e-06 s is below the DEM step 1e-05 s")
+
+    def test_refuses_a_particle_larger_than_a_cell_that_is_to_take_it_whole(self):
+        self.case.replace("constant/gasProperties", "divided;", "centre; largestParticle 0.01;")
+        self.refused("the largest particle, 0.000277 m, is 0.0346 times the smallest cell, 0.008 m")
+
+    def test_refuses_a_viscosity_that_is_not_positive(self):
+        self.case.replace("constant/gasProperties", "viscosity       1.766e-5;", "viscosity       -1;")
+        self.refused("constant/gasProperties: viscosity: found -1, but a number above zero is expected")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
