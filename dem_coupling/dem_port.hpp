@@ -191,9 +191,9 @@ public:
 };
 
 struct DemOptions {
-    std::string script;     ///< path of the LIGGGHTS script
-    std::string directory;  ///< directory in which its relative paths are meant
-    std::string logFile;    ///< LIGGGHTS log
+    std::string script;       ///< path of the LIGGGHTS script
+    std::string directory;    ///< directory in which its relative paths are meant
+    std::string logFile;      ///< LIGGGHTS log
     bool needsCharge = true;  ///< particles must have a charge; false for a gas without electrostatics
     bool hasGas = false;      ///< setGasForces() will be called; false costs nothing
     /// LIGGGHTS index variables that the script finds set, name and value (as `-var name value` on its command line).

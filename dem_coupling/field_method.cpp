@@ -26,12 +26,9 @@ struct Method {
 const std::vector<Method>& methods()
 {
     static const std::vector<Method> list{
-        {"pairwiseSum", false, false, true},
-        {"directTruncation", false, true, false},
-        {"hybridParticleCell", true, true, true},
-        {"him", true, true, false},
-        {"himCell", true, false, false},
-        {"p3m", true, false, false},
+        {"pairwiseSum", false, false, true},      {"directTruncation", false, true, false},
+        {"hybridParticleCell", true, true, true}, {"him", true, true, false},
+        {"himCell", true, false, false},          {"p3m", true, false, false},
     };
     return list;
 }
@@ -95,13 +92,15 @@ void checkCutoff(const FieldSettings& settings, const PoissonMesh* mesh, const B
 /// Fewer cells than this sample a cloud too coarsely (field errors of 8 % and more).
 constexpr double fewestCloudCells = 1.75;
 
-void checkP3m(const P3mSettings& settings, const Box& demBox, const std::array<bool, 3>& periodic, Complaints& complaints)
+void checkP3m(const P3mSettings& settings, const Box& demBox, const std::array<bool, 3>& periodic,
+              Complaints& complaints)
 {
     const std::string entries = std::string(file) + ".p3mCoeffs.";
     std::ostringstream text;
     if (settings.cloudRadius <= 0 && !(settings.cloudCells >= fewestCloudCells)) {
-        text << "a cloud radius of " << settings.cloudCells << " cells is too small: the mesh samples such a cloud too coarsely. Use at least "
-             << fewestCloudCells << "; 2 is the default, 3 or 4 are more accurate";
+        text << "a cloud radius of " << settings.cloudCells
+             << " cells is too small: the mesh samples such a cloud too coarsely. Use at least " << fewestCloudCells
+             << "; 2 is the default, 3 or 4 are more accurate";
         complaints.add(entries + "cloudCells", text.str());
     }
     if (settings.cloudExponent < 0 || settings.cloudExponent > 2) {

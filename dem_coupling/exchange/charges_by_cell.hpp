@@ -43,8 +43,8 @@ public:
     }
 
 private:
-    double reach_;        ///< [m]
-    double cellRadius_;   ///< largest distance of a cell's points from its centre [m]
+    double reach_;       ///< [m]
+    double cellRadius_;  ///< largest distance of a cell's points from its centre [m]
     MeshLocator locator_;
     MeshHalo halo_;
     IndexLists near_;

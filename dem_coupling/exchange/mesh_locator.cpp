@@ -10,7 +10,8 @@ MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator)
 {
 }
 
-MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator, const Box& demBox, const std::array<bool, 3>& periodic)
+MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator, const Box& demBox,
+                         const std::array<bool, 3>& periodic)
     : mesh_(mesh),
       demBox_(demBox),
       periodic_(periodic),

@@ -49,12 +49,12 @@ private:
     std::array<bool, 3> periodic_;
     SparseExchange exchange_;
     std::vector<Box> bounds_;
-    std::vector<int> owner_;                          ///< rank of the cell of each row, -1 when there is none
-    std::vector<Index> cell_;                         ///< local cell of each row that this rank's mesh holds
-    std::vector<Index> ownersCell_;                   ///< the same for every row, numbered by the rank that holds it
+    std::vector<int> owner_;         ///< rank of the cell of each row, -1 when there is none
+    std::vector<Index> cell_;        ///< local cell of each row that this rank's mesh holds
+    std::vector<Index> ownersCell_;  ///< the same for every row, numbered by the rank that holds it
     Points cellCentre_;
-    std::vector<std::vector<Index>> askedRows_;       ///< rows that each rank was asked about
-    std::vector<std::vector<Index>> answeredCells_;   ///< local cells, or -1, of what each rank asked here
+    std::vector<std::vector<Index>> askedRows_;      ///< rows that each rank was asked about
+    std::vector<std::vector<Index>> answeredCells_;  ///< local cells, or -1, of what each rank asked here
     SparseExchange::Buffers outgoing_, incoming_;
 };
 

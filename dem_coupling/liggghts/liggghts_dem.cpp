@@ -156,8 +156,9 @@ Complaints LiggghtsDem::check() const
                                     + "' found; himFoam works in SI only. Write 'units si'.");
     }
     if (lmp_->domain->dimension != 3) {
-        complaints.add(script_, "'dimension 2' found, which makes discs of unit length with the mass and the contact area of "
-                                "cylinders. Write 'dimension 3', and confine spheres to a plane by fix constrain/plane.");
+        complaints.add(script_,
+                       "'dimension 2' found, which makes discs of unit length with the mass and the contact area of "
+                       "cylinders. Write 'dimension 3', and confine spheres to a plane by fix constrain/plane.");
     }
     if (!needsCharge_ && !lmp_->atom->radius_flag) {
         complaints.add(script_, "atom_style '" + std::string(lmp_->atom->atom_style)
@@ -181,13 +182,16 @@ Complaints LiggghtsDem::check() const
             "superquadric particles found; only spheres carry charge here. Use 'atom_style hybrid granular charge'.");
     }
     if (const auto* fix = dynamic_cast<FixEfieldHim*>(FixCoupleCfdEfield::find(lmp_.get()))) {
-        complaints.add(script_, "fix " + std::string(fix->id) + " of style efield/him found, which computes the field in "
-                                    "liggghtsHim. Here fieldMethod in constant/electrostaticProperties does. Remove the fix.");
+        complaints.add(script_,
+                       "fix " + std::string(fix->id)
+                           + " of style efield/him found, which computes the field in "
+                             "liggghtsHim. Here fieldMethod in constant/electrostaticProperties does. Remove the fix.");
     }
     if (charging_ && !needsCharge_) {
-        complaints.add(script_, "fix " + std::string(charging_->id)
-                                    + " charges particles, but the case has no constant/electrostaticProperties. Write that "
-                                      "file, or remove the fix.");
+        complaints.add(script_,
+                       "fix " + std::string(charging_->id)
+                           + " charges particles, but the case has no constant/electrostaticProperties. Write that "
+                             "file, or remove the fix.");
     }
     if (charging_) {
         checkContactModels(complaints);
@@ -237,7 +241,8 @@ void LiggghtsDem::setPartnerCutoff(double cutoff)
     const FixEnableElectricField* enabled = FixEnableElectricField::find(lmp_.get());
     if (enabled && std::isfinite(cutoff) && std::fabs(cutoff / enabled->cutoff() - 1) > 1e-9) {
         std::ostringstream text;
-        text << script_ << ": field_cutoff_radius " << enabled->cutoff() << " m of enable_electric_field and the near cutoff " << cutoff
+        text << script_ << ": field_cutoff_radius " << enabled->cutoff()
+             << " m of enable_electric_field and the near cutoff " << cutoff
              << " m of constant/electrostaticProperties differ. Make them equal";
         throw std::runtime_error(text.str());
     }

@@ -92,7 +92,7 @@ private:
     FixCoupleCfdDrag* drag_ = nullptr;     ///< null without a gas
     bool needsCharge_;
     std::vector<LAMMPS_NS::FixPropertyAtom*> wallForces_;  ///< per wall fix; empty unless asked for
-    LAMMPS_NS::FixPropertyAtom* notes_ = nullptr;  ///< null unless asked for
+    LAMMPS_NS::FixPropertyAtom* notes_ = nullptr;          ///< null unless asked for
     int noteColumns_ = 0;
     bool setUpNext_ = false;  ///< the next run() computes the forces of its first step anew
     bool removalsAllowed_ = false;

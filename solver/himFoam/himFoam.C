@@ -64,8 +64,9 @@ void run(scene& s, MPI_Comm communicator)
 {
     Foam::Time& runTime = s.runTime();
     PhaseTimes times;
-    const auto method =
-        FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(), s.dem->periodic(), communicator, times);
+    const auto method = s.settings.electrostatics ? FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(),
+                                                                        s.dem->periodic(), communicator, times)
+                                                  : FieldMethod::none();
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     step.setWallCharges(s.insulatingWalls.get());

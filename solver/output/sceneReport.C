@@ -113,8 +113,8 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
     using Foam::Info;
     const FieldSettings& field = settings.field;
     if (!settings.electrostatics) {
-        Info << "\nNo electrostatics.\n\nClocks: gas step " << deltaT << " s = " << Foam::label(demSteps) << " DEM steps of "
-             << dem.timeStep() << " s\n"
+        Info << "\nNo electrostatics.\n\nClocks: gas step " << deltaT << " s = " << Foam::label(demSteps)
+             << " DEM steps of " << dem.timeStep() << " s\n"
              << Foam::endl;
         return;
     }

@@ -12,7 +12,8 @@ namespace him {
 class FakeDem : public DemPort {
 public:
     /// @param mine  this rank's particles
-    FakeDem(DemParticles mine, const Box& box, const std::array<bool, 3>& periodic, double timeStep, MPI_Comm communicator);
+    FakeDem(DemParticles mine, const Box& box, const std::array<bool, 3>& periodic, double timeStep,
+            MPI_Comm communicator);
 
     double timeStep() const override { return timeStep_; }
     Box box() const override { return box_; }
@@ -42,13 +43,13 @@ public:
     std::int64_t believedCount = 0;
     ChargeMovements moved;
     std::vector<DemWall> wallList;
-    std::function<void()> duringRun;   ///< called at the end of run(), on every rank
+    std::function<void()> duringRun;  ///< called at the end of run(), on every rank
     double partnerCutoff = -1;
     bool handedOver = false;
     int fieldsSet = 0;
-    Points heldField;                  ///< [V/m]
-    GasForces gas;                     ///< empty until setGasForces()
-    Points gasGiven, gasPromised;      ///< [N s], [N]
+    Points heldField;              ///< [V/m]
+    GasForces gas;                 ///< empty until setGasForces()
+    Points gasGiven, gasPromised;  ///< [N s], [N]
 
 private:
     Box box_;
