@@ -41,6 +41,9 @@ void CoupledStep::updateField()
 {
     readParticles();
     bringWallCharges();
+    if (booksOpen_ && changeCharges_ && changeCharges_(particles_) && walls_) {
+        wallFaceCharge_ = walls_->total();
+    }
     method_.compute(particles_, field_);
     summarise();
     if (!booksOpen_) {

@@ -7,7 +7,9 @@
 #include "dem_coupling/phase_times.hpp"
 #include "dem_coupling/wall_charge_port.hpp"
 
+#include <functional>
 #include <mpi.h>
+#include <utility>
 
 namespace him {
 
@@ -32,6 +34,11 @@ public:
 
     /// Where insulating walls keep their charge; before start(), outlives this.
     void setWallCharges(WallChargePort* walls) { walls_ = walls; }
+
+    /// Something that may change the charges of the particles, in `particles` and in the DEM alike, in every step between the DEM
+    /// steps and the field. What it gives to insulating walls must be on their faces afterwards. Returns whether it did.
+    using ChargeChange = std::function<bool(DemParticles& particles)>;
+    void setChargeChange(ChargeChange change) { changeCharges_ = std::move(change); }
 
     /// Tells the DEM the method's partner cutoff, computes the field of the first step, opens the books and hands over.
     /// Call once. Throws like advance().
@@ -67,6 +74,7 @@ private:
     StepSummary summary_;
     ChargeBooks books_;
     WallChargePort* walls_ = nullptr;
+    ChargeChange changeCharges_;
     std::vector<WallCharge> wallCharges_;
     double wallFaceCharge_ = 0;   ///< [C]
     double wallFaceOpening_ = 0;  ///< on the faces beyond what their walls were given when the books were opened [C]

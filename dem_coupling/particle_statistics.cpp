@@ -10,8 +10,7 @@ namespace him {
 RegionStatistics::RegionStatistics(StatisticsRegion region, std::size_t wallForces, MPI_Comm communicator)
     : region_(std::move(region)),
       wallForces_(wallForces),
-      communicator_(communicator),
-      histogram_(region_.lowestCharge, region_.highestCharge, region_.chargeBins)
+      communicator_(communicator)
 {
     beginAverages();
 }
@@ -22,7 +21,10 @@ void RegionStatistics::beginAverages()
     total_ = RegionSample();
     total_.sums.layers.assign(static_cast<std::size_t>(region_.layers), 0.0);
     total_.carriedByWall.assign(wallForces_, 0.0);
-    histogram_ = ChargeHistogram(region_.lowestCharge, region_.highestCharge, region_.chargeBins);
+    histogram_.clear();
+    if (region_.chargeBins > 0) {
+        histogram_.emplace_back(region_.lowestCharge, region_.highestCharge, region_.chargeBins);
+    }
     profile_.clear();
     if (region_.profileBins > 0) {
         profile_.emplace_back(region_.place, region_.profileWidth, region_.profileBins);
@@ -61,7 +63,9 @@ RegionSample RegionStatistics::sample(const DemParticles& particles, const Point
 void RegionStatistics::average(const DemParticles& particles, const Points& field, const RegionSample& sample)
 {
     samples_ += 1;
-    histogram_.add(particles, region_.place);
+    for (ChargeHistogram& histogram : histogram_) {
+        histogram.add(particles, region_.place);
+    }
     for (WallProfile& profile : profile_) {
         profile.add(particles, field);
     }
@@ -97,6 +101,11 @@ RegionSample RegionStatistics::averages() const
         }
     }
     return mean;
+}
+
+std::vector<double> RegionStatistics::chargeCounts() const
+{
+    return histogram_.empty() ? std::vector<double>() : histogram_.front().counts(communicator_);
 }
 
 std::vector<WallProfile::Row> RegionStatistics::profile() const

@@ -20,7 +20,7 @@ struct StatisticsRegion {
     int profileBins = 0;         ///< 0: no profile
     double lowestCharge = 0;     ///< range of the charge distribution [C]
     double highestCharge = 0;
-    int chargeBins = 0;
+    int chargeBins = 0;          ///< 0: no distribution
 };
 
 /// Numbers of one region at one moment.
@@ -52,9 +52,9 @@ public:
     /// Averages over the samples since the last beginAverages(); wallSpeed() of them is the RMS over samples and particles.
     RegionSample averages() const;
     std::vector<WallProfile::Row> profile() const;  ///< empty without a profile. Collective
-    /// Counts of the charge bins, then below and above the range. Collective.
-    std::vector<double> chargeCounts() const { return histogram_.counts(communicator_); }
-    const ChargeHistogram& histogram() const { return histogram_; }
+    /// Counts of the charge bins, then below and above the range; empty without a distribution. Collective.
+    std::vector<double> chargeCounts() const;
+    const ChargeHistogram& histogram() const { return histogram_.front(); }
     void beginAverages();
 
 private:
@@ -63,8 +63,8 @@ private:
     MPI_Comm communicator_;
     double samples_ = 0;
     RegionSample total_;
-    ChargeHistogram histogram_;
-    std::vector<WallProfile> profile_;  ///< one or none
+    std::vector<ChargeHistogram> histogram_;  ///< one or none
+    std::vector<WallProfile> profile_;        ///< one or none
 };
 
 /// Means over the particles of all ranks, for settings that a case leaves open. Collective.

@@ -19,6 +19,18 @@ public:
     virtual double total() const = 0;
     /// Whether a DEM wall, by its row in DemPort::walls(), keeps its charge on faces.
     virtual bool keeps(std::size_t demWall) const = 0;
+
+    // --- for projective charging
+    /// Remembers the charge of every face.
+    virtual void mark() {}
+    /// Sum over all faces of all ranks of |charge now - charge at the mark| [C]. Collective.
+    virtual double activity() const { return 0; }
+    /// Adds to every face times (charge now - charge at the mark) + perActivity |charge now - charge at the mark|. Collective.
+    virtual void continueSinceMark(double times, double perActivity)
+    {
+        static_cast<void>(times);
+        static_cast<void>(perActivity);
+    }
 };
 
 }  // namespace him

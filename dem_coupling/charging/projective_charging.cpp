@@ -83,6 +83,10 @@ void ChargeProjection::fitGroup(Fit& fit, const double* sums, const std::vector<
         }
     }
     const bool known = target != charge;
+    const double least = equilibrium.empty() ? 0 : *std::min_element(equilibrium.begin(), equilibrium.end());
+    const double most = equilibrium.empty() ? 0 : *std::max_element(equilibrium.begin(), equilibrium.end());
+    fit.lowest = least < 0 ? least : fit.lowest;
+    fit.highest = most > 0 ? most : fit.highest;
     if (sums[0] >= 3 && sums[3] > 0) {
         const double slope = sums[4] / sums[3];
         const double scatter = std::max(0.0, sums[5] - slope * sums[4]) / (sums[0] - 2);
@@ -124,6 +128,12 @@ ChargeProjection::Leap ChargeProjection::leap(long bursts, double correlation, b
         change += factor[n] * rest_[row];
         if (fit.slope < 0 && way * (way + change) < 0) {
             change = -way;
+            sums[2] += 1;
+        } else if (change < 0 && after_[row] + change < fit.lowest) {
+            change = std::min(0.0, fit.lowest - after_[row]);
+            sums[2] += 1;
+        } else if (change > 0 && after_[row] + change > fit.highest) {
+            change = std::max(0.0, fit.highest - after_[row]);
             sums[2] += 1;
         }
         result.charge[row] += change;

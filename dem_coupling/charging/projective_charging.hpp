@@ -4,6 +4,7 @@
 #include "electrostatics/types.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <mpi.h>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace him {
 /// spread grow as n bursts would make it: rests of successive bursts whose correlation is rho add up like a first-order
 /// autoregression. With rho = 0 (the bed mixes faster than a burst) that is a random walk, with rho = 1 (particles stay where they
 /// are) every particle goes on with its own gain. Without this the spread of a mixed bed comes out three times too narrow
-/// (projective_charging_test.cpp). A particle that its rest would carry beyond q* stops there and is counted.
+/// (projective_charging_test.cpp). A particle that its rest would carry beyond q*, or from there beyond the equilibrium
+/// charge, stops there and is counted.
 class ChargeProjection {
 public:
     /// One group.
@@ -32,6 +34,8 @@ public:
         double meanGain = 0;    ///< [C per burst]
         bool fromBurst = false; ///< the burst shows the relaxation by itself
         bool held = false;      ///< no leap
+        double lowest = std::numeric_limits<double>::lowest();  ///< equilibrium charges that no leap passes [C]
+        double highest = std::numeric_limits<double>::max();
         double limit() const { return slope < 0 ? -gainAtZero / slope : 0; }  ///< q* [C]
     };
 
@@ -51,7 +55,7 @@ public:
         Scalars charge;              ///< of each particle afterwards [C]
         double gained = 0;           ///< total, all ranks [C]
         double assumedGain = 0;      ///< of the next burst, all ranks, by the fits [C]
-        std::int64_t stopped = 0;    ///< particles that stopped at q*, all ranks
+        std::int64_t stopped = 0;    ///< particles that stopped at q* or at equilibrium, all ranks
     };
     /// Charges after `bursts` more bursts. Collective.
     /// @param correlation  rho of the rests of successive bursts; outside [0, 1] the nearest end counts

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checks/caseChecks.H"
 
+#include "settings/checkedDictionary.H"
+
 #include <algorithm>
 
 namespace him {
@@ -23,6 +25,25 @@ void checkUniformCharge(const caseSettings& settings, DemPort& dem, MPI_Comm com
     if (dem.losesCharge()) {
         complaints.add(where, "it holds all charges, but fix charge/gran/contact lets them leak or break down. Take `relaxationTime` and "
                               "`breakdownField` out of the script, or write fixedUniformCharge no.");
+    }
+}
+
+void checkProjectiveCharging(const caseSettings& settings, const DemPort& dem, Complaints& complaints)
+{
+    if (!settings.projectiveCharging.active) {
+        return;
+    }
+    const std::string where = "constant/couplingProperties: projectiveCharging";
+    if (!dem.charging()) {
+        complaints.add(where, "the DEM script has no fix charge/gran/contact, so nothing charges. Add it, or take the entry out.");
+    }
+    if (dem.chargingAcceleration() != 1) {
+        complaints.add(where, "its bursts are true charging, but the script has acceleration " + shown(dem.chargingAcceleration())
+                                  + ". Take `acceleration` out of fix charge/gran/contact; leap makes the charging faster.");
+    }
+    if (dem.losesCharge()) {
+        complaints.add(where, "it projects what contacts move, but fix charge/gran/contact lets charge leak or break down, too. Take "
+                              "`relaxationTime` and `breakdownField` out of the script, or projectiveCharging out of the case.");
     }
 }
 

@@ -108,14 +108,18 @@ long gasPhase::nextDemSteps(long current) const
     return std::max(1L, std::min(steps, most));
 }
 
+double gasPhase::pressureOn(Foam::label patch) const
+{
+    const Foam::scalarField& areas = mesh_.magSf().boundaryField()[patch];
+    return Foam::gSum(Foam::scalarField(areas * flow_.pressure().boundaryField()[patch])) / Foam::gSum(areas);
+}
+
 void gasPhase::writeLine(double time)
 {
     std::ostringstream patches;
     patches.precision(12);
     for (const Foam::label patch : listedPatches(mesh_)) {
-        const Foam::scalarField& areas = mesh_.magSf().boundaryField()[patch];
-        const double area = Foam::gSum(areas);
-        patches << ' ' << Foam::gSum(Foam::scalarField(areas * flow_.pressure().boundaryField()[patch])) / area << ' '
+        patches << ' ' << pressureOn(patch) << ' '
                 << -Foam::gSum(Foam::scalarField(flow_.voidFraction().boundaryField()[patch]
                                                  * flow_.flux().boundaryField()[patch]));
     }

@@ -27,6 +27,7 @@ SourceFiles
 #include "output/runReport.H"
 #include "output/statisticsTables.H"
 #include "parallel/session.H"
+#include "projectiveCharging/projectiveCharging.H"
 
 #include "OSspecific.H"
 #include "profiling.H"
@@ -39,8 +40,14 @@ namespace him {
 
 namespace {
 
+/// LIGGGHTS restart file of the current time.
+Foam::fileName checkpointOf(const scene& s)
+{
+    return Foam::fileName(s.settings.demScript).path() / "restart" / s.runTime().timeName();
+}
+
 /// Fields, particles and DEM checkpoint, when it is time for them.
-void write(scene& s, const CoupledStep& step, particleWriter& particles, PhaseTimes& times)
+void write(scene& s, const CoupledStep& step, particleWriter& particles, projectiveCharging* projection, PhaseTimes& times)
 {
     const PhaseTimer timer(times, Phase::output);
     s.runTime().write();
@@ -54,10 +61,27 @@ void write(scene& s, const CoupledStep& step, particleWriter& particles, PhaseTi
         s.poisson->matter()->write();
     }
     if (s.settings.demCheckpoint) {
-        const Foam::fileName folder = Foam::fileName(s.settings.demScript).path() / "restart";
-        Foam::mkDir(folder);
-        s.dem->writeCheckpoint(folder / s.runTime().timeName());
+        const Foam::fileName checkpoint = checkpointOf(s);
+        Foam::mkDir(checkpoint.path());
+        s.dem->writeCheckpoint(checkpoint);
+        if (projection) {
+            projection->write(checkpoint);
+        }
     }
+}
+
+/// What the case's statistics take as pressure drop; empty without.
+pressureDropSource pressureDropOf(const scene& s, const gasPhase* gas)
+{
+    if (!gas || !s.settings.statistics.pressureDrop) {
+        return {};
+    }
+    const pressureDropChoice& choice = *s.settings.statistics.pressureDrop;
+    const Foam::label inlet = s.gasMesh().boundaryMesh().findPatchID(choice.inlet);
+    const Foam::label outlet = s.gasMesh().boundaryMesh().findPatchID(choice.outlet);
+    return [gas, inlet, outlet, empty = choice.emptyColumn] {
+        return gas->pressureOn(inlet) - gas->pressureOn(outlet) - empty;
+    };
 }
 
 void run(scene& s, MPI_Comm communicator)
@@ -80,9 +104,12 @@ void run(scene& s, MPI_Comm communicator)
     }
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
+    const auto projection = projectiveCharging::create(runTime, s.settings.projectiveCharging, *s.dem, s.insulatingWalls.get(),
+                                                       checkpointOf(s), communicator);
     const auto statistics =
         statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem,
-                                 s.dem->charging() && !s.settings.fixedUniformCharge, {}, communicator);
+                                 s.dem->charging() && !s.settings.fixedUniformCharge,
+                                 pressureDropOf(s, gas ? &*gas : nullptr), communicator);
     runReport report(runTime, times, s.settings.logInterval);
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
@@ -96,8 +123,11 @@ void run(scene& s, MPI_Comm communicator)
         charge->write(runTime.value(), step);
     }
     fieldError.update(step);
+    if (projection) {
+        projection->start(step);
+    }
     if (statistics) {
-        statistics->start(step);
+        statistics->start(step, projection ? projection->beyond() : 0);
     }
     if (gas) {
         gas->start(step.particles());
@@ -121,12 +151,12 @@ void run(scene& s, MPI_Comm communicator)
                 gas->writeLine(runTime.value());
             }
         }
-        write(s, step, *particles, times);
+        write(s, step, *particles, projection.get(), times);
         {
             const PhaseTimer timer(times, Phase::output);
             fieldError.update(step);
             if (statistics) {
-                statistics->update(step);
+                statistics->update(step, projection ? projection->beyond() : 0);
             }
         }
         if (gas && report.logged()) {
@@ -140,6 +170,9 @@ void run(scene& s, MPI_Comm communicator)
         }
     }
     report.printSummary(step, *s.dem, communicator);
+    if (projection) {
+        projection->printSummary();
+    }
     Foam::Info << "End\n" << Foam::endl;
 }
 

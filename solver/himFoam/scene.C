@@ -47,6 +47,9 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
             checkGasFields(s.gasMesh(), complaints);
         }
     }
+    if (timeOpens && (!s.settings.gas || s.ownGasMesh.valid() || s.mesh.valid())) {
+        checkPressureDrop(s.settings.statistics, s.settings.gas ? &s.gasMesh() : nullptr, complaints);
+    }
     if (s.mesh.valid()) {
         s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints,
                                     s.settings.field.neutralisingBackground, s.settings.dielectrics);
@@ -89,6 +92,7 @@ void openDem(scene& s, MPI_Comm communicator)
     }
     handSettingsToDem(s);
     checkUniformCharge(s.settings, *s.dem, communicator, complaints);
+    checkProjectiveCharging(s.settings, *s.dem, complaints);
     s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);
     if (s.settings.gas) {
         checkGasScene(*s.settings.gas, s.gasMesh(), *s.dem, communicator, complaints);

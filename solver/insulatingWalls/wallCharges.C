@@ -204,6 +204,31 @@ double wallCharges::total() const
     return sum;
 }
 
+Scalars wallCharges::faceCharges() const
+{
+    Scalars charges(matter_.ownedFaces());
+    for (Foam::label n = 0; n < matter_.ownedFaces(); ++n) {
+        charges[n] = matter_.surfaceCharge(n) * matter_.areaOf(n);
+    }
+    return charges;
+}
+
+void wallCharges::mark()
+{
+    marked_ = faceCharges();
+}
+
+double wallCharges::activity() const
+{
+    return Foam::returnReduce((faceCharges() - marked_).abs().sum(), Foam::sumOp<double>());
+}
+
+void wallCharges::continueSinceMark(double times, double perActivity)
+{
+    const Scalars gain = faceCharges() - marked_;
+    matter_.addCharge(times * gain + perActivity * gain.abs());
+}
+
 void wallCharges::write(const Foam::Time& runTime)
 {
     matter_.write();

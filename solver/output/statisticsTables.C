@@ -136,7 +136,7 @@ void statisticsTables::writeLine(table& one, const RegionSample& sample, double 
     out << std::endl;
 }
 
-void statisticsTables::start(const CoupledStep& step)
+void statisticsTables::start(const CoupledStep& step, double chargingTime)
 {
     // The hand-over may have put the particles into another order; forces of walls belong to the new one.
     DemParticles now;
@@ -148,7 +148,7 @@ void statisticsTables::start(const CoupledStep& step)
         openSeries(one);
         RegionSample sample = one.statistics.sample(step.particles(), step.field().field, {}, gravity_);
         sample.carriedByWall = one.statistics.sample(now, none, wallForces_, gravity_).carriedByWall;
-        writeLine(one, sample, pressure, timeOfCharging(0));
+        writeLine(one, sample, pressure, timeOfCharging(chargingTime));
     }
 }
 
@@ -217,7 +217,7 @@ void statisticsTables::writeAverages(table& one)
             file << "saturation " << curve.limit << "\ntau " << curve.timeScale << "\nfitDeviation " << curve.deviation << '\n';
         }
     }
-    {
+    if (!counts.empty()) {
         std::ofstream file;
         open("ChargePDF.dat", file);
         const auto bins = static_cast<std::size_t>(one.statistics.histogram().bins());

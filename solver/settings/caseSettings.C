@@ -20,6 +20,28 @@ bool existsInCase(const Foam::fileName& path)
     return found;
 }
 
+ProjectiveSettings readProjectiveCharging(checkedDictionary& properties, bool fixedCharge)
+{
+    ProjectiveSettings settings;
+    if (!properties.has("projectiveCharging")) {
+        return settings;
+    }
+    checkedDictionary entries = properties.section("projectiveCharging");
+    settings.active = entries.readable();
+    for (const auto& [entry, value] : {std::pair<const char*, long*>{"burst", &settings.burst}, {"leap", &settings.leap}}) {
+        if (entries.readable() && !entries.has(entry)) {
+            entries.complain(entry, "the entry is missing. Write { burst <field updates>; leap <bursts>; }.");
+        }
+        *value = entries.positiveInteger(entry, 1);
+    }
+    entries.refuseUnknownEntries();
+    if (fixedCharge) {
+        properties.complain("projectiveCharging", "fixedUniformCharge switches charging off, so there is nothing to project. Take one of "
+                                                  "them out.");
+    }
+    return settings;
+}
+
 }  // namespace
 
 caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& complaints)
@@ -66,6 +88,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
     }
     settings.allowRemovals = properties.yesNo("allowRemovals", false);
     settings.fixedUniformCharge = properties.yesNo("fixedUniformCharge", false);
+    settings.projectiveCharging = readProjectiveCharging(properties, settings.fixedUniformCharge);
     settings.demCheckpoint = properties.yesNo("demCheckpoint", true);
     settings.logInterval = properties.positiveInteger("logInterval", 1);
     settings.chargeInterval = properties.positiveInteger("chargeInterval", 1);

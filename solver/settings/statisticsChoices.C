@@ -123,6 +123,19 @@ statisticsChoices readStatisticsChoices(const Foam::fileName& casePath, Complain
     choices.active = entries.readable();
     choices.sampleInterval = entries.positiveInteger("sampleInterval", 1);
     choices.chargingSince = entries.number("chargingSince", 0);
+    if (entries.has("pressureDrop")) {
+        checkedDictionary drop = entries.section("pressureDrop");
+        choices.pressureDrop = pressureDropChoice{};
+        for (const auto& [entry, patch] : {std::pair<const char*, std::string*>{"inlet", &choices.pressureDrop->inlet},
+                                           {"outlet", &choices.pressureDrop->outlet}}) {
+            *patch = drop.written(entry);
+            if (patch->empty() && drop.readable()) {
+                drop.complain(entry, "the entry is missing. Name a patch of the gas's mesh.");
+            }
+        }
+        choices.pressureDrop->emptyColumn = drop.number("emptyColumn", 0);
+        drop.refuseUnknownEntries();
+    }
     regionChoice common;
     readCommon(entries, common);
     checkedDictionary regions = entries.section("regions");
@@ -180,8 +193,7 @@ std::vector<StatisticsRegion> completeRegions(const statisticsChoices& choices, 
         }
         const double reach = beyondEquilibrium * (equilibrium > 0 ? equilibrium : scale.largestCharge);
         if (!choice.chargeRange && reach == 0) {
-            complaints.add(where + ": chargeRange", "the entry is missing, and the scene tells no default: no particle has a charge, "
-                                                    "and there is no wall with an equilibrium charge. Write chargeRange (lowest highest); [C].");
+            regions.push_back(region);  // no charge and none to come: no distribution
             continue;
         }
         region.lowestCharge = choice.chargeRange ? choice.chargeRange->first : -reach;

@@ -72,6 +72,22 @@ TEST(ChargeProjection, aLimitBeyondTheKnownEquilibriumDoesNotCount)
     EXPECT_LE(projection.leap(1000000, 0, true).charge.maxCoeff(), 0.8 * (1 + 1e-12));
 }
 
+TEST(ChargeProjection, restsCarryNothingBeyondTheEquilibriumCharge)
+{
+    Scalars before(200), after(200);
+    std::mt19937 random(3);
+    std::normal_distribution<double> scatter;
+    for (Index n = 0; n < before.size(); ++n) {
+        before[n] = -0.999 + 0.004 * static_cast<double>(n);
+        after[n] = before[n] - 0.05 * (before[n] + 0.8) + 0.004 * scatter(random);
+    }
+    const ChargeProjection projection = fit(before, after.max(-1), {-1.0});
+    ASSERT_TRUE(projection.groups()[0].fromBurst);
+    const auto leap = projection.leap(40, 0.9, true);
+    EXPECT_GE(leap.charge.minCoeff(), -1);
+    EXPECT_GT(leap.stopped, 0);
+}
+
 TEST(ChargeProjection, holdsWhatNothingIsKnownOf)
 {
     const Scalars before = charges({0, 1, 2});

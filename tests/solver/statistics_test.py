@@ -2,7 +2,9 @@
 """Statistics of regions agree with the particles of the same moment, on any number of ranks and over a restart."""
 
 import math
+import pathlib
 import re
+import shutil
 import tempfile
 import unittest
 import xml.etree.ElementTree
@@ -11,6 +13,7 @@ from restart_test import continuing
 from tiny_case import PARTICLES, TinyCase
 
 FILE = "system/particleStatistics"
+OUTLET = "top"  # of cases/singleSettling
 MASS = 2000 * math.pi / 6 * 0.004**3
 
 BOX = """
@@ -246,13 +249,51 @@ class Statistics(unittest.TestCase):
             self.assertIn(text, flat)
 
     def test_what_the_scene_does_not_tell_is_asked_for(self):
-        still = [((0.05, 0.05, 0.05), (0., 0., 0.), 0.)]
-        case = statistics_case(self.folder, "regions { a { upper (0.1 0.1 0.1); } "
-                                            "b { lower (1 1 1); upper (2 2 2); } }", particles=still)
-        case.replace("DEM/in.cube", "gamma -7.67e5 kappa 20.0", "gamma 0 kappa 20.0")
+        case = statistics_case(self.folder, "regions { a { upper (0.1 0.1 0.1); } b { lower (1 1 1); upper (2 2 2); } } "
+                                            "pressureDrop { inlet bottom; outlet top; }")
+        script = case.path / "DEM/in.cube"
+        script.write_text("\n".join(line for line in script.read_text().splitlines()
+                                    if not line.startswith(("create_atoms", "set atom"))) + "\n")
         flat = " ".join(case.run("-dry-run").text.split())
-        for text in ("regions: a: chargeRange: the entry is missing", "regions: b: the region lies outside the DEM box"):
-            self.assertIn(text, flat)
+        self.assertIn("pressureDrop: the case has no gas (constant/gasProperties), so there is no pressure drop", flat)
+        case.replace(FILE, "pressureDrop { inlet bottom; outlet top; }", "")
+        flat = " ".join(case.run("-dry-run").text.split())
+        self.assertIn("regions: a: layerThickness: the entry is missing, and its default, the mean diameter, is that of no particle", flat)
+        self.assertIn("regions: b: the region lies outside the DEM box", flat)
+
+    def test_a_scene_without_charge_has_no_distribution(self):
+        still = [((0.05, 0.05, 0.05), (0., 0., 0.), 0.)]
+        case = statistics_case(self.folder, "regions { a {} }", particles=still)
+        case.replace("DEM/in.cube", "gamma -7.67e5 kappa 20.0", "gamma 0 kappa 20.0")
+        self.ran(case)
+        folder = case.path / "postProcessing/particleStatistics/0.002"
+        self.assertEqual([path.name for path in folder.iterdir()], ["aAverages.dat"])
+
+
+class PressureDrop(unittest.TestCase):
+    def test_it_is_that_of_the_patches_less_the_empty_column(self):
+        with tempfile.TemporaryDirectory() as folder:
+            settling = pathlib.Path(__file__).resolve().parents[2] / "cases/singleSettling"
+            case = TinyCase.copy(settling, folder)
+            shutil.rmtree(case.path / "postProcessing", ignore_errors=True)
+            case.replace("system/controlDict", "endTime         0.56;", "endTime         0.01;")
+            case.write(FILE, "pressureDrop { inlet floor; outlet %s; emptyColumn 0.25; } regions { all {} }" % OUTLET)
+            case.tool("blockMesh")
+            result = case.run()
+            self.assertEqual(result.code, 0, result.text[-3000:])
+            lines = (case.path / "postProcessing/gas/0/gas.dat").read_text().splitlines()
+            names = [line for line in lines if line.startswith("# Time")][0][2:].split()
+            gas = {round(row["Time"], 9): row for row in
+                   (dict(zip(names, map(float, line.split()))) for line in lines if not line.startswith("#"))}
+            rows = series(case, "all")
+            self.assertGreater(len(rows), 10)
+            for row in rows[1:]:
+                there = gas[round(row["Time"], 9)]
+                drop = there["p_floor"] - there["p_%s" % OUTLET]
+                self.assertAlmostEqual(row["pressureDrop"], drop - 0.25, delta=1e-9)
+            self.assertGreater(max(abs(row["pressureDrop"] + 0.25) for row in rows), 1e-7)
+            case.replace(FILE, "outlet %s;" % OUTLET, "outlet chimney;")
+            self.assertIn("pressureDrop: unknown patch `chimney`; known: ", case.run("-dry-run").text)
 
 
 class Equilibrium(unittest.TestCase):
