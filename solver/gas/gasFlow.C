@@ -43,6 +43,7 @@ gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings)
       alphaf_(resultIO("voidFractionf", mesh, IOobject::NO_WRITE), mesh, dimensionedScalar("one", dimless, 1)),
       pressureFlux_(resultIO("pressureFlux", mesh, IOobject::NO_WRITE), mesh,
                     dimensionedScalar(dimPressure * dimLength, Zero)),
+      reconstruct_(mesh),
       K_(resultIO("dragPerGasMass", mesh, IOobject::NO_WRITE), mesh, dimensionedScalar(inv(dimTime), Zero),
          zeroGradientFvPatchScalarField::typeName),
       S_(resultIO("dragMomentum", mesh, IOobject::NO_WRITE), mesh, dimensionedVector(dimAcceleration, Zero),
@@ -53,7 +54,7 @@ gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings)
     mesh_.setFluxRequired(p_.name());
     result_.velocity.setZero(mesh_.nCells(), 3);
     result_.pressureForce.setZero(mesh_.nCells(), 3);
-    const volVectorField gradient(fvc::reconstruct(fvc::snGrad(p_) * mesh_.magSf()));
+    const volVectorField gradient(reconstruct_(fvc::snGrad(p_) * mesh_.magSf()));
     forAll(U_, cell)
     {
         result_.velocity.row(cell) = toEigen(U_[cell]).transpose().array();
@@ -156,19 +157,19 @@ void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, 
         }
     }
     const surfaceScalarField balance(Sf - Kf * phi_ - share * pressureFlux_);
-    U_ = (H + K_ * fvc::reconstruct(phi_) + fvc::reconstruct(balance)) / (A + K_);
+    U_ = (H + K_ * reconstruct_(phi_) + reconstruct_(balance)) / (A + K_);
     U_.correctBoundaryConditions();
 }
 
 void gasFlow::collectResult(double deltaT)
 {
     const surfaceScalarField Kf(fvc::interpolate(K_, "interpolate(drag)"));
-    const volVectorField gradient(fvc::reconstruct(pressureFlux_));
+    const volVectorField gradient(reconstruct_(pressureFlux_));
     const volVectorField drag(rho_
-                              * (K_ * (U_ - fvc::reconstruct(phi_)) + fvc::reconstruct(Kf * phi_ - fvc::flux(S_))));
+                              * (K_ * (U_ - reconstruct_(phi_)) + reconstruct_(Kf * phi_ - fvc::flux(S_))));
     vector given = gSum(vectorField(drag.primitiveField() * mesh_.V().field())) * deltaT;
     if (settings_.pressure == PressureModel::modelA) {
-        const volVectorField carried(fvc::reconstruct((1 - alphaf_) * pressureFlux_));
+        const volVectorField carried(reconstruct_((1 - alphaf_) * pressureFlux_));
         given -= gSum(vectorField(carried.primitiveField() * mesh_.V().field())) * deltaT;
     }
     result_.given = toEigen(given);

@@ -56,6 +56,16 @@ class Gas(unittest.TestCase):
         self.assertAlmostEqual(self.speed(rows), TERMINAL, delta=0.005*TERMINAL)
         self.assertAlmostEqual(rows[-1]["forceZ"], MASS*9.81, delta=0.01*MASS*9.81)
 
+    def test_a_mesh_across_the_axes_gives_the_same_fall(self):
+        self.start_at(TERMINAL)
+        self.case.tool("blockMesh")
+        self.case.tool("transformPoints", "-rollPitchYaw", "(0 0 30)")
+        result = self.case.run()
+        self.assertEqual(result.code, 0, result.text[-2000:])
+        rows = self.table()
+        self.assertAlmostEqual(self.speed(rows), TERMINAL, delta=0.005*TERMINAL)
+        self.assertLess(max(row["Co"] for row in rows), 0.1)
+
     def test_what_gas_and_particles_exchange_is_momentum_of_the_particle(self):
         self.start_at(0.2)
         rows = self.run_case()
