@@ -6,6 +6,7 @@
 #include "electrostatics/contact_area.hpp"
 #include "electrostatics/transfer_limit.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,8 +82,8 @@ public:
 
     // --- all pairs
 
-    void setSeparation(double separation);      ///< delta_e of work functions [m]
-    void setAcceleration(double acceleration);  ///< a > 0, multiplies every kappa
+    void setSeparation(double separation);                        ///< delta_e of work functions [m]
+    void setAcceleration(double acceleration);                    ///< a > 0, multiplies every kappa
     void setSoftening(int first, int second, double correction);  ///< a_corr of both orders
     double acceleration() const { return acceleration_; }
     double separation() const { return separation_; }
@@ -100,6 +101,11 @@ public:
     /// What the spread adds to Gamma of a particle [V/m].
     double spreadOf(int type, int tag) const { return spreads_[static_cast<std::size_t>(type)].of(tag); }
     bool spreads() const { return anySpread_; }
+    /// Whether any pair moves charge at all.
+    bool transfers() const
+    {
+        return std::any_of(pairs_.begin(), pairs_.end(), [](const ChargingPair& pair) { return pair.transfers; });
+    }
 
     /// One line per given pair.
     std::string describe() const;
@@ -110,8 +116,8 @@ public:
 private:
     struct Material {
         std::optional<SaturationLaw> saturation;
-        std::optional<double> workFunction;     ///< [J]
-        ParticleSpread spread;                  ///< [V/m], or [J]
+        std::optional<double> workFunction;  ///< [J]
+        ParticleSpread spread;               ///< [V/m], or [J]
         bool spreadOfWorkFunction = false;
     };
     ChargingPair& at(int first, int second) { return const_cast<ChargingPair&>(of(first, second)); }
@@ -123,8 +129,8 @@ private:
 
     int types_;
     std::vector<ChargingPair> pairs_;
-    std::vector<Material> materials_;       ///< by type, from 1
-    std::vector<ParticleSpread> spreads_;   ///< by type, from 1 [V/m]
+    std::vector<Material> materials_;      ///< by type, from 1
+    std::vector<ParticleSpread> spreads_;  ///< by type, from 1 [V/m]
     bool anySpread_ = false;
     double separation_ = defaultChargeSeparation;
     double acceleration_ = 1;

@@ -2,6 +2,8 @@
 #include "dem_coupling/gas/gas_coupling.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace him {
@@ -117,11 +119,33 @@ void GasCoupling::layVolumes(const DemParticles& particles)
         summary_.massCentre = Vector3(sums[5], sums[6], sums[7]) / sums[4];
     }
     if (summary_.particlesOutside > 0 && !settings_.particlesOutsideAllowed) {
-        throw std::runtime_error(
-            std::to_string(summary_.particlesOutside)
-            + " particle(s) are outside the mesh of the gas. Check that the DEM walls lie on the mesh's, "
-              "or write particlesOutsideMesh excluded; in constant/couplingProperties");
+        refuseOutside(particles);
     }
+}
+
+void GasCoupling::refuseOutside(const DemParticles& particles) const
+{
+    // The lowest tag of all ranks, and where it is.
+    std::int64_t lowest = std::numeric_limits<std::int64_t>::max();
+    Vector3 place = Vector3::Zero();
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!shares_.inMesh(row) && particles.tag[row] < lowest) {
+            lowest = particles.tag[row];
+            place = particles.position.row(row).matrix().transpose();
+        }
+    }
+    std::int64_t named = lowest;
+    MPI_Allreduce(MPI_IN_PLACE, &named, 1, MPI_INT64_T, MPI_MIN, communicator_);
+    if (named != lowest) {
+        place.setZero();
+    }
+    MPI_Allreduce(MPI_IN_PLACE, place.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
+    std::ostringstream text;
+    text << summary_.particlesOutside << " particle(s) are outside the mesh of the gas, among them particle " << named
+         << " at (" << place[0] << ' ' << place[1] << ' ' << place[2]
+         << ") m. Check that the DEM walls lie on the mesh's, or write particlesOutsideMesh excluded; in "
+            "constant/couplingProperties";
+    throw std::runtime_error(text.str());
 }
 
 void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)

@@ -76,6 +76,8 @@ public:
 
 private:
     void layVolumes(const DemParticles& particles);
+    /// Throws std::runtime_error with a particle that is outside the mesh. Collective.
+    [[noreturn]] void refuseOutside(const DemParticles& particles) const;
     void layDrag(const DemParticles& particles, const Points& velocity);
     void layOwed();
     void toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume);

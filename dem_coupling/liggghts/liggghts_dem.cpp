@@ -187,11 +187,11 @@ Complaints LiggghtsDem::check() const
                            + " of style efield/him found, which computes the field in "
                              "liggghtsHim. Here fieldMethod in constant/electrostaticProperties does. Remove the fix.");
     }
-    if (charging_ && !needsCharge_) {
+    if (charging_ && !needsCharge_ && charging_->transfer().pairs().transfers()) {
         complaints.add(script_,
                        "fix " + std::string(charging_->id)
                            + " charges particles, but the case has no constant/electrostaticProperties. Write that "
-                             "file, or remove the fix.");
+                             "file, remove the fix, or write 'none' for all of its pairs.");
     }
     if (charging_) {
         checkContactModels(complaints);

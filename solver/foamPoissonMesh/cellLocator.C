@@ -13,6 +13,9 @@ namespace {
 /// Bounding boxes and bins overlap by this share of the mesh size, so that round-off opens no gap between them.
 constexpr double overlap = 1e-9;
 
+/// Share of a bin by which the mesh may stick out of whole bins.
+constexpr double binSlack = 1e-6;
+
 /// A point is well inside a cell when it is further from its faces than this share of the mesh size.
 constexpr double wellApart = 1e-12;
 
@@ -58,7 +61,8 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
     }
 
     const double edge = std::cbrt(bounds_.size().prod() / mesh_.nCells());
-    bins_ = (bounds_.size().array() / edge).ceil().cast<int>().max(1);
+    // In a mesh of equal cubes the bins are the cells; the margin and round-off must not make one bin more.
+    bins_ = (bounds_.size().array() / edge - binSlack).ceil().cast<int>().max(1);
     binSize_ = bounds_.size().array() / bins_.cast<double>();
 
     // Cells are visited twice in ascending order: first to count the entries of every bin, then to fill them in.

@@ -9,6 +9,7 @@
 #include "emptyPolyPatch.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvc.H"
+#include "slipFvPatchFields.H"
 #include "volFields.H"
 #include "wedgePolyPatch.H"
 
@@ -74,12 +75,13 @@ void checkPatches(const Foam::volVectorField& U, const Foam::volScalarField& p, 
             continue;
         }
         const bool fluxPressure = Foam::isA<Foam::fixedFluxPressureFvPatchScalarField>(pressure);
-        if (velocity.fixesValue() && !fluxPressure && !pressure.fixesValue()) {
+        const bool velocityGiven = velocity.fixesValue() || Foam::isA<Foam::slipFvPatchVectorField>(velocity);
+        if (velocityGiven && !fluxPressure && !pressure.fixesValue()) {
             complaints.add(time + "/p: " + patch.name(),
                            "found " + pressure.type()
                                + ", but the velocity is given there, and the pressure must follow "
                                  "from it. Write type fixedFluxPressure; value uniform 0;");
-        } else if (!velocity.fixesValue() && !pressure.fixesValue()) {
+        } else if (!velocityGiven && !pressure.fixesValue()) {
             complaints.add(
                 time + "/U: " + patch.name(),
                 "found " + velocity.type() + " for the velocity and " + pressure.type()

@@ -11,7 +11,7 @@ namespace him {
 
 namespace {
 
-void handSettingsToDem(scene& s)
+void handElectrostaticsToDem(scene& s)
 {
     std::vector<WallRole> roles;
     for (const auto& [wall, target] : s.settings.walls) {
@@ -21,7 +21,6 @@ void handSettingsToDem(scene& s)
     s.dem->setWallRoles(roles);
     s.dem->setWallContactField(s.settings.wallContactField);
     s.dem->setPermittivity(s.settings.field.permittivity);
-    s.dem->allowRemovals(s.settings.allowRemovals);
 }
 
 }  // namespace
@@ -58,7 +57,7 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
         checkConditions(s.settings.field, *s.poisson, complaints);
         checkCutoff(s.settings.field, *s.poisson, complaints);
     }
-    if (s.poisson || !s.settings.needsMesh) {
+    if (s.settings.electrostatics && (s.poisson || !s.settings.needsMesh)) {
         checkWallTargets(s.settings, s.poisson.get(), complaints);
     }
     stopOnComplaints(complaints, "Dictionaries, mesh and fields", communicator);
@@ -90,7 +89,10 @@ void openDem(scene& s, MPI_Comm communicator)
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
         s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);
     }
-    handSettingsToDem(s);
+    s.dem->allowRemovals(s.settings.allowRemovals);
+    if (s.settings.electrostatics) {
+        handElectrostaticsToDem(s);
+    }
     checkUniformCharge(s.settings, *s.dem, communicator, complaints);
     checkProjectiveCharging(s.settings, *s.dem, complaints);
     s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);

@@ -99,6 +99,31 @@ class Gas(unittest.TestCase):
         two = self.run_case(ranks=2)
         self.assertAlmostEqual(self.speed(two), self.speed(one), delta=1e-6)
 
+    def test_sides_may_let_the_gas_slip(self):
+        self.start_at(TERMINAL)
+        self.case.replace("0/U", "sides { type noSlip; }", "sides { type slip; }")
+        self.assertAlmostEqual(self.speed(self.run_case()), TERMINAL, delta=0.005*TERMINAL)
+
+    def test_a_bed_without_electrostatics_may_keep_walls_and_a_charging_fix_that_moves_nothing(self):
+        self.start_at(TERMINAL)
+        self.case.replace("DEM/in.settling", "atom_style  granular", "atom_style  hybrid granular charge")
+        self.case.replace("DEM/in.settling", "tangential history", "tangential history cohesion charge")
+        wall = "fix floor all wall/gran model hertz tangential history cohesion charge primitive type 1 zplane 0\n"
+        self.case.replace("DEM/in.settling", "fix g all", wall + "fix tribo all charge/gran/contact pair 1 1 none\nfix g all")
+        self.case.replace("constant/couplingProperties", "demScript", "walls { floor glass; }\ndemScript")
+        self.run_case()
+        self.case.replace("DEM/in.settling", "pair 1 1 none", "pair 1 1 gamma 1e5 kappa 1")
+        self.refused("the case has no constant/electrostaticProperties")
+
+    def test_a_particle_that_leaves_the_mesh_is_named_with_its_place(self):
+        self.case.replace("DEM/in.settling", "single 0.0005 0.0003 0.63", "single 0.0005 0.0003 0.6395")
+        self.start_at(-0.6)
+        self.case.tool("blockMesh")
+        result = self.case.run()
+        flat = " ".join(result.text.split())
+        self.assertNotEqual(result.code, 0)
+        self.assertIn("1 particle(s) are outside the mesh of the gas, among them particle 1 at (0.0005 0.0003 0.640", flat)
+
     def test_refuses_a_gas_without_a_void_fraction_model(self):
         self.case.replace("constant/gasProperties", "voidFraction    divided;", "")
         self.refused("constant/gasProperties: voidFraction: the entry is missing")
