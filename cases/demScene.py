@@ -93,14 +93,16 @@ def spheres(rows, radius, density):
     return text + "fix motion all nve/sphere\n"
 
 
-def run(folder, text, columns, every, steps):
-    """Runs a script with a dump; returns its frames: {tag: {column: value}} per dumped step, that of step 0 included."""
+def run(folder, text, columns, every, steps, thermo=None):
+    """Runs a script with a dump; returns its frames: {tag: {column: value}} per dumped step, that of step 0 included. With
+    `thermo`, words like "f_tribo[1] f_field", also their values per dumped step."""
     os.makedirs(folder, exist_ok=True)
     formats = " ".join(["%.17g"]*len(columns))
     text += f"""dump out all custom {every} out.dump id {' '.join(columns)}
 dump_modify out format "%d {formats}" sort id
-thermo_style custom step atoms ke
-thermo {max(steps, 1)}
+thermo_style custom step atoms {thermo or 'ke'}
+thermo_modify format float %.17g lost warn
+thermo {every if thermo else max(steps, 1)}
 run {steps}
 """
     with open(os.path.join(folder, "in.scene"), "w") as file:
@@ -114,4 +116,9 @@ run {steps}
         for block in file.read().split("ITEM: TIMESTEP")[1:]:
             rows = [row.split() for row in block.split("ITEM: ATOMS")[1].splitlines()[1:]]
             frames.append({int(row[0]): dict(zip(columns, map(float, row[1:]))) for row in rows})
-    return frames
+    if thermo is None:
+        return frames
+    with open(os.path.join(folder, "log.liggghtsHim")) as file:
+        rows = [line.split() for line in file]
+    count = 2 + len(thermo.split())
+    return frames, [list(map(float, row[2:])) for row in rows if len(row) == count and row[0].isdigit() and row[1].isdigit()]

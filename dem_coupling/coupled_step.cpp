@@ -2,6 +2,7 @@
 #include "dem_coupling/coupled_step.hpp"
 
 #include "dem_coupling/charging/compensated_sum.hpp"
+#include "dem_coupling/field_frequency.hpp"
 #include "dem_coupling/particle_faults.hpp"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ void CoupledStep::summarise()
     const std::int64_t bad = countBadFields(field_.field);
     CompensatedSum charge, absolute, kinetic;
     constexpr double lowest = std::numeric_limits<double>::lowest();
-    std::array<double, 3> extremes{lowest, lowest, 0};  // -smallest charge, largest charge, largest squared field
+    std::array<double, 4> extremes{lowest, lowest, 0, 0};  // -smallest and largest charge, squared field, frequency
     for (Index row = 0; bad == 0 && row < particles_.size(); ++row) {
         const double q = particles_.charge[row];
         charge += q;
@@ -130,6 +131,7 @@ void CoupledStep::summarise()
         extremes[1] = std::max(extremes[1], q);
         extremes[2] = std::max(extremes[2], field_.field.row(row).square().sum());
     }
+    extremes[3] = bad == 0 ? fieldFrequency(particles_, field_.field) : 0;
     const double energy = method_.hasPotential() && bad == 0 ? field_.energy : 0;
     std::array<double, 5> sums{charge.value(), absolute.value(), energy, kinetic.value(), static_cast<double>(bad)};
     MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
@@ -146,6 +148,7 @@ void CoupledStep::summarise()
     summary_.smallestCharge = any ? -extremes[0] : 0;
     summary_.largestCharge = any ? extremes[1] : 0;
     summary_.largestField = std::sqrt(extremes[2]);
+    summary_.fieldFrequency = extremes[3];
     summary_.excludedCount = field_.excludedCount;
     summary_.excludedCharge = field_.excludedCharge;
 }

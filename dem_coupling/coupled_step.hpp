@@ -20,6 +20,7 @@ struct StepSummary {
     double smallestCharge = 0;  ///< [C]
     double largestCharge = 0;   ///< [C]
     double largestField = 0;    ///< [V/m]
+    double fieldFrequency = 0;  ///< [1/s], see fieldFrequency()
     double energy = 0;          ///< electrostatic [J], see ParticleField::energy; NaN when the method has no potential
     double kineticEnergy = 0;   ///< translational [J]
     std::int64_t excludedCount = 0;  ///< particles outside the mesh

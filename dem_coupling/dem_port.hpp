@@ -9,11 +9,14 @@
 #include <array>
 #include <memory>
 #include <mpi.h>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace him {
+
+class NearFieldRefresh;
 
 /// The particles that this rank's DEM owns. Row order is the DEM's own and may change with every run().
 struct DemParticles {
@@ -124,6 +127,14 @@ public:
     /// Distance [m] up to which the field handed over by setField contains the Coulomb field of a particle's neighbour;
     /// infinity for a full pair sum. Needed to take the contact partner out of it.
     virtual void setPartnerCutoff(double cutoff) = 0;
+    /// From now on the held field follows the particles: its short-range part is computed anew after every `interval` DEM
+    /// steps, at the positions at which it acts. `near` outlives the DEM's runs.
+    virtual void setNearField(NearFieldRefresh& near, long interval)
+    {
+        static_cast<void>(near);
+        static_cast<void>(interval);
+        throw std::logic_error("this DEM can not compute near fields between two field updates");
+    }
     /// Whether the DEM may take particles out during the run. If not, every missing one counts as lost.
     virtual void allowRemovals(bool allowed) = 0;
     /// Gives the particles of the script their initial charge, where it asks for one. Before the first field.

@@ -161,6 +161,14 @@ Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* 
                                   + " needs a mesh, and the case has none. Make one in constant/polyMesh, or use "
                                     "pairwiseSum or directTruncation");
     }
+    for (int axis = 0; settings.nearField.interval > 0 && axis < 3; ++axis) {
+        if (periodic[static_cast<std::size_t>(axis)] && settings.nearField.reach > demBox.size()[axis]) {
+            std::ostringstream text;
+            text << settings.nearField.reach << " m is longer than the periodic DEM box in "
+                 << "xyz"[axis] << ", " << demBox.size()[axis] << " m. Use at most that, or a larger box";
+            complaints.add(std::string(file) + ".nearField.reach", text.str());
+        }
+    }
     if (settings.method == "p3m") {
         checkP3m(settings.p3m, demBox, periodic, complaints);
     }

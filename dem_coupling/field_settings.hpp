@@ -49,6 +49,12 @@ struct P3mSettings {
     bool selfTerm = false;  ///< subtract the interpolation of the particle's own cloud
 };
 
+/// nearField: how the held field follows the particles between two updates, see NearFieldRefresh.
+struct NearFieldSettings {
+    long interval = 0;  ///< DEM steps between two computations of the short-range part; 0: it is held like the rest
+    double reach = 0;   ///< radius of the short-range part [m]
+};
+
 /// Settings of every method; a method reads only what it knows.
 struct FieldSettings {
     std::string method;                       ///< run-time selected name
@@ -59,6 +65,7 @@ struct FieldSettings {
     /// Where no wall is at a voltage, a net charge on the mesh gets a uniform charge density against it.
     bool neutralisingBackground = false;
     OutsideMesh outsideMesh = OutsideMesh::error;
+    NearFieldSettings nearField;
     PairwiseSumSettings pairwiseSum;
     HimSettings him;
     HimCellSettings himCell;

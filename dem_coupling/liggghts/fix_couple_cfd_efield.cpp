@@ -2,6 +2,8 @@
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 
 #include "dem_coupling/charging/charge_transfer.hpp"
+#include "dem_coupling/liggghts/particle_rows.hpp"
+#include "dem_coupling/near_field_refresh.hpp"
 
 #include "atom.h"
 #include "comm.h"
@@ -82,6 +84,7 @@ FixCoupleCfdEfield::~FixCoupleCfdEfield()
     atom->delete_callback(id, 0);
     atom->delete_callback(id, 2);
     memory->destroy(held_);
+    memory->destroy(far_);
 }
 
 FixCoupleCfdEfield* FixCoupleCfdEfield::find(LAMMPS_NS::LAMMPS* lmp)
@@ -105,9 +108,47 @@ void FixCoupleCfdEfield::setField(const Points& field, const Points& ownResponse
         }
         held_[i][6] = atom->q[i];
     }
+    if (near_) {
+        readRows(*atom, nearParticles_);
+        near_->compute(nearParticles_, nearPart_, nearOwn_);
+        const bool images = knowsOwn && nearOwn_.rows() == nearPart_.rows();
+        for (int i = 0; i < atom->nlocal; ++i) {
+            for (int d = 0; d < 3; ++d) {
+                far_[i][d] = held_[i][d] - nearPart_(i, d);
+                far_[i][3 + d] = held_[i][HeldField::ownResponse + d] - (images ? nearOwn_(i, d) : 0.0);
+            }
+        }
+        stepsSinceNear_ = 0;
+    }
     if (ghostsExist_) {
         comm->forward_comm_fix(this);
     }
+}
+
+void FixCoupleCfdEfield::setNearField(NearFieldRefresh& near, long interval)
+{
+    near_ = &near;
+    nearInterval_ = interval;
+    grow_arrays(atom->nmax);
+    for (int i = 0; i < atom->nlocal; ++i) {
+        std::fill_n(far_[i], farWidth, 0.0);
+    }
+}
+
+void FixCoupleCfdEfield::refreshNearField()
+{
+    readRows(*atom, nearParticles_);
+    near_->compute(nearParticles_, nearPart_, nearOwn_);
+    const bool images = nearOwn_.rows() == nearPart_.rows();
+    for (int i = 0; i < atom->nlocal; ++i) {
+        for (int d = 0; d < 3; ++d) {
+            held_[i][d] = far_[i][d] + nearPart_(i, d);
+            held_[i][3 + d] = atom->x[i][d];
+            held_[i][HeldField::ownResponse + d] = far_[i][3 + d] + (images ? nearOwn_(i, d) : 0.0);
+        }
+        held_[i][6] = atom->q[i];
+    }
+    comm->forward_comm_fix(this);
 }
 
 int FixCoupleCfdEfield::setmask()
@@ -117,11 +158,21 @@ int FixCoupleCfdEfield::setmask()
 
 void FixCoupleCfdEfield::setup(int flag)
 {
+    static_cast<void>(flag);
     ghostsExist_ = true;
-    post_force(flag);
+    addForces();
 }
 
 void FixCoupleCfdEfield::post_force(int)
+{
+    if (near_ && ++stepsSinceNear_ >= nearInterval_) {
+        refreshNearField();
+        stepsSinceNear_ = 0;
+    }
+    addForces();
+}
+
+void FixCoupleCfdEfield::addForces()
 {
     for (int i = 0; i < atom->nlocal; ++i) {
         if (!(atom->mask[i] & groupbit)) {
@@ -166,29 +217,46 @@ void FixCoupleCfdEfield::grow_arrays(int rows)
 {
     memory->grow(held_, rows, width, "couple/cfd/efield:held");
     array_atom = held_;
+    if (near_) {
+        memory->grow(far_, rows, farWidth, "couple/cfd/efield:far");
+    }
 }
 
 void FixCoupleCfdEfield::copy_arrays(int from, int to, int)
 {
     std::copy_n(held_[from], width, held_[to]);
+    if (near_) {
+        std::copy_n(far_[from], farWidth, far_[to]);
+    }
 }
 
 void FixCoupleCfdEfield::set_arrays(int row)
 {
     std::fill_n(held_[row], width, 0.0);
+    if (near_) {
+        std::fill_n(far_[row], farWidth, 0.0);
+    }
     ++arrivals_;
 }
 
 int FixCoupleCfdEfield::pack_exchange(int row, double* buffer)
 {
     std::copy_n(held_[row], width, buffer);
-    return width;
+    if (!near_) {
+        return width;
+    }
+    std::copy_n(far_[row], farWidth, buffer + width);
+    return width + farWidth;
 }
 
 int FixCoupleCfdEfield::unpack_exchange(int row, double* buffer)
 {
     std::copy_n(buffer, width, held_[row]);
-    return width;
+    if (!near_) {
+        return width;
+    }
+    std::copy_n(buffer + width, farWidth, far_[row]);
+    return width + farWidth;
 }
 
 int FixCoupleCfdEfield::pack_border(int n, int* list, double* buffer)

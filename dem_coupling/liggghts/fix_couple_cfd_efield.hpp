@@ -26,6 +26,8 @@ public:
     /// when they are made.
     /// @param ownResponse  share of it that the particle's own images make, or no rows
     void setField(const Points& field, const Points& ownResponse);
+    /// See DemPort::setNearField. Before the first setField().
+    void setNearField(NearFieldRefresh& near, long interval);
     /// Per row, see HeldField.
     const double* const* held() const { return held_; }
     /// Particles that appeared on this rank since this fix was made.
@@ -55,7 +57,19 @@ protected:
     ForceLimiter limiter_;
 
 private:
+    void addForces();
+    /// Puts the short-range field of now in the place of the held one.
+    void refreshNearField();
+
     std::int64_t arrivals_ = 0;
+    // With setNearField(): the held field and own response less their short-range parts at the last update, per row [V/m].
+    static constexpr int farWidth = 6;
+    double** far_ = nullptr;
+    NearFieldRefresh* near_ = nullptr;
+    long nearInterval_ = 0;
+    long stepsSinceNear_ = 0;
+    DemParticles nearParticles_;
+    Points nearPart_, nearOwn_;
 };
 
 }  // namespace him

@@ -251,6 +251,12 @@ void LiggghtsDem::setPartnerCutoff(double cutoff)
     }
 }
 
+void LiggghtsDem::setNearField(NearFieldRefresh& near, long interval)
+{
+    near_ = &near;
+    nearInterval_ = interval;
+}
+
 void LiggghtsDem::chargeParticles()
 {
     if (charging_) {
@@ -300,6 +306,10 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field, c
     if (!field_) {
         command(std::string("fix ") + fieldFixId + " all couple/cfd/efield");
         field_ = static_cast<FixCoupleCfdEfield*>(lmp_->modify->find_fix_id(fieldFixId));
+    }
+    if (near_) {
+        field_->setNearField(*near_, nearInterval_);
+        near_ = nullptr;
     }
     field_->setField(field, ownResponse);
 }

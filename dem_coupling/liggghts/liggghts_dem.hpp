@@ -39,6 +39,7 @@ public:
     void setWallContactField(WallContactField field) override;
     void setPermittivity(double permittivity) override;
     void setPartnerCutoff(double cutoff) override;
+    void setNearField(NearFieldRefresh& near, long interval) override;
     void allowRemovals(bool allowed) override { removalsAllowed_ = allowed; }
     void chargeParticles() override;
     void handOver() override;
@@ -94,6 +95,8 @@ private:
     std::vector<LAMMPS_NS::FixPropertyAtom*> wallForces_;  ///< per wall fix; empty unless asked for
     LAMMPS_NS::FixPropertyAtom* notes_ = nullptr;          ///< null unless asked for
     int noteColumns_ = 0;
+    NearFieldRefresh* near_ = nullptr;  ///< until the field fix is there, which takes it
+    long nearInterval_ = 0;
     bool setUpNext_ = false;  ///< the next run() computes the forces of its first step anew
     bool removalsAllowed_ = false;
     std::int64_t expected_ = 0;

@@ -101,6 +101,15 @@ long demStepsPerUpdate(double deltaT, double timeStep, Complaints& complaints)
     return static_cast<long>(nearest);
 }
 
+void checkNearField(const NearFieldSettings& nearField, long demSteps, Complaints& complaints)
+{
+    if (demSteps > 0 && nearField.interval > demSteps) {
+        complaints.add("constant/electrostaticProperties: nearField.interval",
+                       std::to_string(nearField.interval) + " DEM steps are more than the " + std::to_string(demSteps)
+                           + " of a field update (deltaT). Use at most half of those, or leave nearField out.");
+    }
+}
+
 void checkWalls(const caseSettings& settings, const DemPort& dem, Complaints& complaints)
 {
     const std::string where = "constant/couplingProperties: walls";

@@ -29,6 +29,8 @@ SourceFiles
 #include "parallel/session.H"
 #include "projectiveCharging/projectiveCharging.H"
 
+#include "dem_coupling/near_field_refresh.hpp"
+
 #include "OSspecific.H"
 #include "profiling.H"
 
@@ -91,6 +93,7 @@ void run(scene& s, MPI_Comm communicator)
     const auto method = s.settings.electrostatics ? FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(),
                                                                         s.dem->periodic(), communicator, times)
                                                   : FieldMethod::none();
+    const auto nearField = NearFieldRefresh::create(s.settings.field, s.poisson.get(), *s.dem, communicator, times);
     CoupledStep step(*s.dem, *method, communicator, times);
     const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     step.setWallCharges(s.insulatingWalls.get());
@@ -110,7 +113,8 @@ void run(scene& s, MPI_Comm communicator)
         statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem,
                                  s.dem->charging() && !s.settings.fixedUniformCharge,
                                  pressureDropOf(s, gas ? &*gas : nullptr), communicator);
-    runReport report(runTime, times, s.settings.logInterval);
+    const long heldSteps = nearField ? s.settings.field.nearField.interval : s.demSteps;
+    runReport report(runTime, times, s.settings.logInterval, static_cast<double>(heldSteps) * s.dem->timeStep());
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     if (s.settings.fixedUniformCharge) {

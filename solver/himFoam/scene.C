@@ -83,6 +83,7 @@ void openDem(scene& s, MPI_Comm communicator)
         checkWalls(s.settings, *s.dem, complaints);
         checkDimensions(s.settings, *s.dem, complaints);
     }
+    checkNearField(s.settings.field.nearField, s.demSteps, complaints);
     findImageWalls(s.settings, *s.dem, complaints);
     choosePairSum(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
     if (s.poisson) {

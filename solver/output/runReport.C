@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/runReport.H"
 
+#include "dem_coupling/field_frequency.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iomanip>
@@ -56,8 +59,13 @@ std::array<double, phases> secondsOf(const PhaseTimes& times)
 
 }  // namespace
 
-runReport::runReport(const Foam::Time& runTime, const PhaseTimes& times, long logInterval)
-    : runTime_(runTime), times_(times), logInterval_(logInterval), firstTime_(runTime.value()), start_(Clock::now())
+runReport::runReport(const Foam::Time& runTime, const PhaseTimes& times, long logInterval, double heldTime)
+    : runTime_(runTime),
+      times_(times),
+      logInterval_(logInterval),
+      heldTime_(heldTime),
+      firstTime_(runTime.value()),
+      start_(Clock::now())
 {
     recent_.emplace_back(firstTime_, 0);
 }
@@ -88,8 +96,24 @@ void runReport::beginStep()
     }
 }
 
+void runReport::warnOfHeldField(const StepSummary& summary)
+{
+    const double phase = heldTime_ * summary.fieldFrequency;
+    if (phase > largestFieldPhase && largestPhase_ <= largestFieldPhase) {
+        Info << "WARNING: the field of near particles is held for " << heldTime_
+             << " s, in which charged particles can move as far as it takes to change their force: omega T = "
+             << formatted("%.2g", phase).c_str() << ", above " << largestFieldPhase
+             << ". Approaching charges lose energy and circling ones win some. Use a deltaT of at most "
+             << formatted("%.2g", largestFieldPhase / summary.fieldFrequency).c_str()
+             << " s, or nearField in constant/electrostaticProperties with an interval that is shorter than that."
+             << endl;
+    }
+    largestPhase_ = std::max(largestPhase_, phase);
+}
+
 void runReport::endStep(const CoupledStep& step)
 {
+    warnOfHeldField(step.summary());
     recent_.emplace_back(runTime_.value(), secondsSinceStart());
     if (recent_.size() > recentUpdates) {
         recent_.pop_front();
@@ -138,6 +162,7 @@ void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Co
     line("ranks", std::to_string(ranks));
     line("shares of time", shares(seconds, wall));
     line("particles", std::to_string(step.summary().particles));
+    line("near field held, largest omega T", formatted("%.2g", largestPhase_));
     line("total charge [C]", formatted("%.6g", step.summary().totalCharge));
     line("contacts with particles, walls",
          formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));

@@ -141,6 +141,10 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
     Info << ", permittivity " << field.permittivity << " F/m, external field (" << e.x() << ' ' << e.y() << ' ' << e.z()
          << ") V/m\n\nClocks: field update every " << deltaT << " s = " << Foam::label(demSteps) << " DEM steps of "
          << dem.timeStep() << " s\n";
+    if (field.nearField.interval > 0) {
+        Info << "    near field anew every " << Foam::label(field.nearField.interval) << " DEM steps, within "
+             << field.nearField.reach << " m\n";
+    }
     if (field.accuracy > 0) {
         Info << accuracyText(field).c_str() << '\n';
     }

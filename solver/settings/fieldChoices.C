@@ -107,6 +107,13 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
 
     common.neutralisingBackground = properties.yesNo("neutralisingBackground", false);
 
+    checkedDictionary nearField = properties.section("nearField", true);
+    if (properties.has("nearField")) {
+        common.nearField.interval = nearField.positiveInteger("interval", 1);
+        common.nearField.reach = nearField.positive("reach");
+        nearField.refuseUnknownEntries();
+    }
+
     fieldChoices choices;
     choices.selected = common;
     choices.methodByAccuracy = accuracy > 0 && !properties.has("fieldMethod");

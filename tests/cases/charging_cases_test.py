@@ -10,7 +10,7 @@ import unittest
 
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 NAME = sys.argv.pop(1)
-ROWS = {"packing": 2, "reciprocatingCharger": 1, "singleContact": 2}      # of the short report's first table
+ROWS = {"hardCases": 25, "packing": 2, "reciprocatingCharger": 1, "singleContact": 2}      # of the short report's first table
 
 
 class ChargingCase(unittest.TestCase):
@@ -22,7 +22,7 @@ class ChargingCase(unittest.TestCase):
             for name in {NAME} | ({"vibratoryShaker"} if NAME == "packing" else set()):
                 shutil.copytree(CASES / name, root / name, ignore=shutil.ignore_patterns("runs", "study", "bands", "doc"))
             done = subprocess.run(["./Allrun", "-short"], cwd=root / NAME, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                  timeout=240)
+                                  timeout=580)
             self.assertEqual(done.returncode, 0, done.stdout[-3000:])
             report = (root / NAME / "runs/report.md").read_text()
         self.assertNotIn("FAILED", done.stdout)

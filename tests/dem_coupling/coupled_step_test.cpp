@@ -121,6 +121,25 @@ TEST(CoupledStep, summarisesTheParticlesOfAllRanks)
     EXPECT_EQ(summary.excludedCount, 0);
 }
 
+TEST(CoupledStep, knowsHowFastTheFieldOfTouchingChargesChanges)
+{
+    // Two unlike spheres in contact: the force k q^2/x^2 on the reduced mass m/2 has the slope 2 k q^2/(2 r)^3.
+    const double q = 1e-11, m = 2e-8, r = 1e-4;
+    DemParticles pair = emptyParticles(2);
+    pair.position.row(0) << -r, 0, 0;
+    pair.position.row(1) << r, 0, 0;
+    pair.charge << q, -q;
+    pair.mass.setConstant(m);
+    pair.radius.setConstant(r);
+    PhaseTimes times;
+    const auto method = pairwiseSum(times);
+    FakeDem dem(dealt(pair, MPI_COMM_WORLD), box, open, timeStep, MPI_COMM_WORLD);
+    CoupledStep step(dem, *method, MPI_COMM_WORLD, times);
+    step.start();
+    const double slope = 2 * q * q / (4 * pi * epsilon0) / std::pow(2 * r, 3);
+    EXPECT_NEAR(step.summary().fieldFrequency / std::sqrt(slope / (m / 2)), 1, 1e-12);
+}
+
 TEST(CoupledStep, conservesEnergyInAnExternalField)
 {
     // Charge q in the field E from rest, semi-implicit Euler with one field per step: kinetic energy plus -q E.x is

@@ -32,14 +32,15 @@ def last_frame(path):
 
 
 class Restart(unittest.TestCase):
-    def compare(self, method):
+    def compare(self, method, entries="", charging=""):
         with tempfile.TemporaryDirectory() as folder:
             case = TinyCase(folder, method)
+            case.replace("constant/electrostaticProperties", "externalField", entries + "externalField")
             case.replace("system/controlDict", "endTime 2e-3;", "endTime 40e-3;")
             case.replace("system/controlDict", "writeInterval 2;", "writeInterval 20;")
             case.replace("system/controlDict", "writeFormat ascii;", "writeFormat binary;")
             script = case.path / "DEM/in.cube"
-            text = continuing(script.read_text())
+            text = continuing(script.read_text()).replace(" area hertz", " area hertz" + charging)
             script.write_text(text.replace("fix move all", DUMP % "straight.dump" + "fix move all"))
             straight = case.run()
             self.assertEqual(straight.code, 0, straight.text[-2000:])
@@ -65,6 +66,12 @@ class Restart(unittest.TestCase):
 
     def test_p3m_continues_bit_for_bit(self):
         self.compare("p3m")
+
+    def test_a_spread_of_gamma_belongs_to_the_same_particles_after_a_restart(self):
+        self.compare("pairwiseSum", charging=" spread 1 gamma 2e5 seed 11")
+
+    def test_a_field_that_follows_the_particles_continues_bit_for_bit(self):
+        self.compare("p3m", "nearField { interval 7; reach 0.03; }\n")
 
 
 if __name__ == "__main__":

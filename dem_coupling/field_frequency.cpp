@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/field_frequency.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace him {
+
+double fieldFrequency(const DemParticles& particles, const Points& field)
+{
+    double largest = 0;
+    for (Index row = 0; row < particles.size(); ++row) {
+        const double force = particles.charge[row] * std::sqrt(field.row(row).square().sum());
+        largest = std::max(largest, std::fabs(force) / (particles.mass[row] * particles.radius[row]));
+    }
+    return std::sqrt(2 * largest);
+}
+
+}  // namespace him
