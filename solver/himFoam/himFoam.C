@@ -49,7 +49,8 @@ Foam::fileName checkpointOf(const scene& s)
 }
 
 /// Fields, particles and DEM checkpoint, when it is time for them.
-void write(scene& s, const CoupledStep& step, particleWriter& particles, projectiveCharging* projection, PhaseTimes& times)
+void write(scene& s, const CoupledStep& step, particleWriter& particles, projectiveCharging* projection,
+           PhaseTimes& times)
 {
     const PhaseTimer timer(times, Phase::output);
     s.runTime().write();
@@ -95,7 +96,6 @@ void run(scene& s, MPI_Comm communicator)
                                                   : FieldMethod::none();
     const auto nearField = NearFieldRefresh::create(s.settings.field, s.poisson.get(), *s.dem, communicator, times);
     CoupledStep step(*s.dem, *method, communicator, times);
-    const auto particles = particleWriter::create(runTime, s.poisson.get(), communicator);
     step.setWallCharges(s.insulatingWalls.get());
     std::optional<chargeTable> charge;
     if (s.settings.electrostatics) {
@@ -105,14 +105,17 @@ void run(scene& s, MPI_Comm communicator)
     if (s.settings.gas) {
         gas.emplace(s.gasMesh(), *s.settings.gas, *s.dem, times, communicator);
     }
+    const auto particles = s.poisson
+                               ? particleWriter::create(runTime, &s.poisson->mesh(), s.poisson.get(), communicator)
+                           : gas ? particleWriter::create(runTime, &s.gasMesh(), &gas->cells(), communicator)
+                                 : particleWriter::create(runTime, nullptr, nullptr, communicator);
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
-    const auto projection = projectiveCharging::create(runTime, s.settings.projectiveCharging, *s.dem, s.insulatingWalls.get(),
-                                                       checkpointOf(s), communicator);
-    const auto statistics =
-        statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem,
-                                 s.dem->charging() && !s.settings.fixedUniformCharge,
-                                 pressureDropOf(s, gas ? &*gas : nullptr), communicator);
+    const auto projection = projectiveCharging::create(runTime, s.settings.projectiveCharging, *s.dem,
+                                                       s.insulatingWalls.get(), checkpointOf(s), communicator);
+    const auto statistics = statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem,
+                                                     s.dem->charging() && !s.settings.fixedUniformCharge,
+                                                     pressureDropOf(s, gas ? &*gas : nullptr), communicator);
     const long heldSteps = nearField ? s.settings.field.nearField.interval : s.demSteps;
     runReport report(runTime, times, s.settings.logInterval, static_cast<double>(heldSteps) * s.dem->timeStep());
 

@@ -29,8 +29,8 @@ Foam::vector toFoam(const std::array<double, 3>& v)
 
 }  // namespace
 
-particleCloudWriter::particleCloudWriter(const foamPoissonMesh& mesh, MPI_Comm communicator)
-    : mesh_(mesh), locator_(mesh, communicator), exchange_(communicator)
+particleCloudWriter::particleCloudWriter(const Foam::fvMesh& mesh, const CellMesh& cells, MPI_Comm communicator)
+    : mesh_(mesh), locator_(cells, communicator), exchange_(communicator)
 {
 }
 
@@ -49,9 +49,9 @@ void particleCloudWriter::write(const DemParticles& particles, const Points& fie
     }
     const std::vector<particleRecord> records = collectRecords(particles, field, targetRanks, cells, exchange_);
 
-    Foam::passiveParticleCloud cloud(mesh_.mesh(), "particles", Foam::IDLList<Foam::passiveParticle>());
+    Foam::passiveParticleCloud cloud(mesh_, "particles", Foam::IDLList<Foam::passiveParticle>());
     for (const particleRecord& record : records) {
-        auto particle = std::make_unique<Foam::passiveParticle>(mesh_.mesh(), toFoam(record.position),
+        auto particle = std::make_unique<Foam::passiveParticle>(mesh_, toFoam(record.position),
                                                                 static_cast<Foam::label>(record.cell));
         particle->origId() = static_cast<Foam::label>(record.tag);
         cloud.addParticle(particle.release());

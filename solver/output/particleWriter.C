@@ -53,11 +53,11 @@ std::vector<particleRecord> collectRecords(const DemParticles& particles, const 
     return records;
 }
 
-std::unique_ptr<particleWriter> particleWriter::create(const Foam::Time& runTime, const foamPoissonMesh* mesh,
-                                                       MPI_Comm communicator)
+std::unique_ptr<particleWriter> particleWriter::create(const Foam::Time& runTime, const Foam::fvMesh* mesh,
+                                                       const CellMesh* cells, MPI_Comm communicator)
 {
     if (mesh) {
-        return std::make_unique<particleCloudWriter>(*mesh, communicator);
+        return std::make_unique<particleCloudWriter>(*mesh, *cells, communicator);
     }
     return std::make_unique<particleVtpWriter>(runTime, communicator);
 }

@@ -99,6 +99,13 @@ class Gas(unittest.TestCase):
         two = self.run_case(ranks=2)
         self.assertAlmostEqual(self.speed(two), self.speed(one), delta=1e-6)
 
+    def test_the_particles_are_a_lagrangian_cloud_of_the_gas_mesh(self):
+        self.start_at(TERMINAL)
+        self.case.replace("system/controlDict", "writeInterval   560;", "writeInterval   100;")
+        self.run_case()
+        (particle,) = self.case.particles("0.05").values()
+        self.assertAlmostEqual(particle["U"][2], -TERMINAL, delta=0.01*TERMINAL)
+
     def test_sides_may_let_the_gas_slip(self):
         self.start_at(TERMINAL)
         self.case.replace("0/U", "sides { type noSlip; }", "sides { type slip; }")
