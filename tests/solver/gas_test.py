@@ -95,6 +95,7 @@ class Gas(unittest.TestCase):
 
     def test_two_ranks_give_the_fall_of_one(self):
         self.start_at(0.9)
+        self.case.replace("system/controlDict", "endTime         0.05;", "endTime         0.02;")
         one = self.run_case()
         two = self.run_case(ranks=2)
         self.assertAlmostEqual(self.speed(two), self.speed(one), delta=1e-6)
@@ -102,6 +103,7 @@ class Gas(unittest.TestCase):
     def test_the_particles_are_a_lagrangian_cloud_of_the_gas_mesh(self):
         self.start_at(TERMINAL)
         self.case.replace("system/controlDict", "writeInterval   560;", "writeInterval   100;")
+        self.case.replace("system/controlDict", "binary", "ascii")
         self.run_case()
         (particle,) = self.case.particles("0.05").values()
         self.assertAlmostEqual(particle["U"][2], -TERMINAL, delta=0.01*TERMINAL)
