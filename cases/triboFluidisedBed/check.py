@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the runs of one size have found: pressure drop over weight, charge per mass and its saturation, the wall layer; draws them.
+Exit code 1 when the uncharged bed does not carry its weight or a charge book does not close. Usage: check.py small|medium|full"""
+
+import glob
+import os
+import re
+import sys
+
+import numpy as np
+
+
+def read(folder, pattern):
+    """The columns of all series of a run, in order of time."""
+    rows, names = [], []
+    for path in sorted(glob.glob(f"{folder}/postProcessing/{pattern}"), key=lambda p: float(p.split("/")[-2])):
+        with open(path) as file:
+            lines = file.read().splitlines()
+        names = [line for line in lines if line.startswith("# Time")][0][2:].split()
+        rows += [[float(word) for word in line.split()] for line in lines if not line.startswith("#")]
+    order = np.argsort([row[0] for row in rows], kind="stable")
+    table = np.array(rows)[order]
+    return {name: table[:, n] for n, name in enumerate(names)}
+
+
+class Run:
+    def __init__(self, folder):
+        self.name = os.path.basename(folder)
+        self.bed = read(folder, "particleStatistics/*/bed.dat")
+        self.time = self.bed["Time"]
+        found = re.match(r"a([\d.]+)-eg([\d.]+)(-uniform)?$", self.name)
+        self.acceleration, self.strength = (float(found.group(1)), float(found.group(2))) if found else (0, 0)
+        self.uniform = bool(found and found.group(3))
+        self.charge = read(folder, "charge/*/charge.dat") if found else None
+
+    def late(self, name, seconds=0.5):
+        return np.mean(self.bed[name][self.time > self.time[-1] - seconds])
+
+    def area(self, folder):
+        with open(f"{folder}/system/bedSize") as file:
+            half = float(re.search(r"^high\s+([\d.]+);", file.read(), re.M).group(1))
+        return (2e-3*half)**2
+
+
+def line(run, weight, uncharged):
+    bed = run.bed
+    drop = run.late("pressureDrop")
+    text = (f"{run.name:18}  {drop:8.2f} Pa  {100*(drop/uncharged - 1):+7.2f} %  {1e6*run.late('chargePerMass'):9.2f} uC/kg"
+            f"  {run.late('wallParticles'):8.1f}  {100*run.late('wallShare'):7.1f} %  {run.late('wallSpeed'):8.4f} m/s")
+    if run.acceleration and not run.uniform:
+        text += f"  saturates at {1e6*bed['saturation'][-1]:.2f} uC/kg, tau {bed['tau'][-1]:.2f} s of a t"
+    return text
+
+
+def draw(size, runs, weight):
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(1, 3, figsize=(13, 3.8), constrained_layout=True)
+    for run in runs:
+        if run.acceleration and not run.uniform:
+            axes[0].plot(run.bed["chargingTime"], 1e6*run.bed["chargePerMass"], lw=1, label=run.name)
+        smooth = np.convolve(run.bed["pressureDrop"], np.ones(200)/200, mode="valid")
+        axes[1].plot(run.time[199:], smooth/weight, lw=1, label=run.name)
+        axes[2].plot(run.time, run.bed["wallParticles"], lw=0.6, label=run.name)
+    axes[0].set(xlabel="charging time a t [s]", ylabel="charge per mass [uC/kg]")
+    axes[1].set(xlabel="time [s]", ylabel="pressure drop over weight/area, mean of 0.2 s", ylim=(0, 1.3))
+    axes[2].set(xlabel="time [s]", ylabel="particles in the wall layer")
+    for axis in axes:
+        axis.legend(fontsize=7)
+    figure.savefig(f"doc/{size}.png", dpi=120)
+
+
+def main():
+    size = sys.argv[1]
+    folders = sorted(folder for folder in glob.glob(f"runs/{size}/*") if os.path.isdir(f"{folder}/postProcessing"))
+    runs = [Run(folder) for folder in folders]
+    base = [run for run in runs if not run.acceleration][0]
+    buoyant = 1 - 1.149/960
+    weight = base.bed["weight"][-1]*buoyant/base.area(f"runs/{size}/{base.name}")
+    uncharged = base.late("pressureDrop", 0.3)
+    off = uncharged/weight - 1
+    ok = abs(off) <= 0.03
+    print(f"{int(base.bed['particles'][-1])} particles, weight/area {weight:.2f} Pa, uncharged pressure drop {uncharged:.2f} Pa, "
+          f"{100*off:+.2f} %: {'ok' if ok else 'FAILED'}")
+    print("run                 drop          to uncharged  charge             at wall   weight on walls  RMS speed there")
+    for run in runs:
+        print(line(run, weight, uncharged))
+        if run.charge is not None:
+            worst = np.max(np.abs(run.charge["closureError"]))/np.max(np.abs(run.charge["total"]))
+            if worst > 1e-9:
+                ok = False
+                print(f"    the books are off by {worst:.1e}: FAILED")
+    os.makedirs("doc", exist_ok=True)
+    draw(size, runs, weight)
+    return 0 if ok else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
