@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/gas/drag_law.hpp"
 
+#include "electrostatics/constants.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +12,6 @@
 namespace him {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Below this Reynolds number laws with Re in a denominator or a logarithm take their limit: no sum changes in its last digit.
 constexpr double creeping = 1e-12;

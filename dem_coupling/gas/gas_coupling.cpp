@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/gas/gas_coupling.hpp"
 
+#include "electrostatics/constants.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <sstream>
@@ -10,7 +12,11 @@ namespace him {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+/// [m3] of spheres of a radius [m], one number or many.
+template <class Radius> auto sphereVolume(const Radius& radius)
+{
+    return 4 * pi / 3 * radius * radius * radius;
+}
 
 template <std::size_t N> std::array<double, N> sumOverRanks(std::array<double, N> values, MPI_Comm communicator)
 {
@@ -64,6 +70,16 @@ void GasCoupling::toRows(const Points& ofCell, Points& ofRow)
     shares_.gather([source](Index cell) { return Vector3(source->row(cell).matrix().transpose()); }, ofRow);
 }
 
+void GasCoupling::toRows(const Scalars& ofCell, Scalars& ofRow)
+{
+    cell_ = ofCell;
+    if (settings_.voidFraction == VoidFractionModel::smoothed) {
+        mesh_.smooth(cell_, settings_.smoothingLength);
+    }
+    shares_.gather([this](Index cell) { return Vector3(cell_[cell], 0, 0); }, gathered_);
+    ofRow = gathered_.col(0);
+}
+
 void GasCoupling::begin(const DemParticles& particles)
 {
     layVolumes(particles);
@@ -87,7 +103,7 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
 void GasCoupling::layVolumes(const DemParticles& particles)
 {
     shares_.locate(particles);
-    toCells(4 * pi / 3 * particles.radius.cube(), sources_.voidFraction);
+    toCells(sphereVolume(particles.radius), sources_.voidFraction);
 
     // Sums: solid volume, particles outside, cells and volume below the bound, mass and its moments.
     std::array<double, 8> sums{};
@@ -150,20 +166,16 @@ void GasCoupling::refuseOutside(const DemParticles& particles) const
 
 void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
 {
-    Points atRow, voidAtRow;
-    toRows(velocity, atRow);
-    Points voidOfCell(volume_.size(), 3);
-    voidOfCell.setZero();
-    voidOfCell.col(0) = sources_.voidFraction;
-    toRows(voidOfCell, voidAtRow);
+    toRows(velocity, velocityAtRow_);
+    toRows(sources_.voidFraction, voidFractionAtRow_);
 
     forces_.resize(particles.size());
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
         }
-        const double slip = (atRow.row(row) - particles.velocity.row(row)).matrix().norm();
-        const DragPoint point{voidAtRow(row, 0), slip, 2 * particles.radius[row], settings_.density,
+        const double slip = (velocityAtRow_.row(row) - particles.velocity.row(row)).matrix().norm();
+        const DragPoint point{voidFractionAtRow_[row], slip, 2 * particles.radius[row], settings_.density,
                               settings_.viscosity};
         const double beta = law_(point);
         forces_.drag[row] = settings_.pressure == PressureModel::modelB ? dragOfModelB(beta, point.voidFraction) : beta;
@@ -209,7 +221,7 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
         if (!shares_.inMesh(row)) {
             continue;
         }
-        const double volume = 4 * pi / 3 * particles.radius[row] * particles.radius[row] * particles.radius[row];
+        const double volume = sphereVolume(particles.radius[row]);
         if (settings_.pressure == PressureModel::modelA) {
             forces_.force.row(row) = volume * gathered_.row(row);
         }

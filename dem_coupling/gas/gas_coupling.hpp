@@ -80,8 +80,10 @@ private:
     [[noreturn]] void refuseOutside(const DemParticles& particles) const;
     void layDrag(const DemParticles& particles, const Points& velocity);
     void layOwed();
+    /// Sum over particles per volume of cells, and the mean of cells at particles, by the void-fraction model. Collective.
     void toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume);
     void toRows(const Points& ofCell, Points& ofRow);
+    void toRows(const Scalars& ofCell, Scalars& ofRow);
 
     DemPort& dem_;
     const GasMesh& mesh_;
@@ -94,8 +96,8 @@ private:
     GasSummary summary_;
     MomentumBooks books_;
     double lastDuration_ = 0;  ///< [s]
-    Scalars volume_, cell_;
-    Points given_, promised_, smoothed_, gathered_;
+    Scalars volume_, cell_, voidFractionAtRow_;
+    Points given_, promised_, smoothed_, gathered_, velocityAtRow_;
 };
 
 }  // namespace him

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas/gasPhase.H"
 
+#include "output/postProcessingFile.H"
 #include "settings/checkedDictionary.H"
 
-#include "OSspecific.H"
 #include "coupledPolyPatch.H"
 #include "emptyPolyPatch.H"
 
@@ -49,13 +49,10 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
     if (properties_.maxDeltaT == 0) {
         properties_.maxDeltaT = mesh.time().deltaTValue();
     }
-    if (!Foam::Pstream::master()) {
+    file_ = openPostProcessing(mesh.time(), "gas", "gas.dat", 12);
+    if (!file_.is_open()) {
         return;
     }
-    const Foam::fileName folder = mesh.time().globalPath() / "postProcessing" / "gas" / mesh.time().timeName();
-    Foam::mkDir(folder);
-    file_.open(folder / "gas.dat");
-    file_.precision(12);
     file_
         << "# SI units. p_<patch>: area average of p without the hydrostatic part; in_<patch>: inflow of gas [m3/s].\n"
         << "# force: of drag and pressure gradient on all particles. given, got: impulse, sums since the start.\n"

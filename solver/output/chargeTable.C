@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/chargeTable.H"
 
-#include "OSspecific.H"
-#include "Pstream.H"
+#include "output/postProcessingFile.H"
 
 #include <cmath>
 
 namespace him {
 
 chargeTable::chargeTable(const Foam::Time& runTime, const std::vector<DemWall>& walls, bool insulatingWalls)
-    : walls_(walls.size())
+    : walls_(walls.size()), file_(openPostProcessing(runTime, "charge", "charge.dat", 12))
 {
-    if (!Foam::Pstream::master()) {
+    if (!file_.is_open()) {
         return;
     }
-    const Foam::fileName folder = runTime.globalPath() / "postProcessing" / "charge" / runTime.timeName();
-    Foam::mkDir(folder);
-    file_.open(folder / "charge.dat");
-    file_.precision(12);
     file_ << "# Charge on the particles and given to the walls since the start. SI units: s, C, V/m, J.\n"
           << "# min, mean, max: of one particle. A column named after a DEM wall: charge given to it.\n"
           << "# closureError: what the charge books lack. energy: nan when the field method has no potential.\n"

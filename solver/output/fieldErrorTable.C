@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/fieldErrorTable.H"
 
+#include "output/postProcessingFile.H"
 #include "settings/checkedDictionary.H"
 
-#include "OSspecific.H"
 #include "Pstream.H"
 
 namespace him {
@@ -36,10 +36,7 @@ fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSett
 
 void fieldErrorTable::openFile()
 {
-    const Foam::fileName folder = runTime_.globalPath() / "postProcessing" / "fieldError" / runTime_.timeName();
-    Foam::mkDir(folder);
-    file_.open(folder / "fieldError.dat");
-    file_.precision(6);
+    file_ = openPostProcessing(runTime_, "fieldError", "fieldError.dat", 6);
     file_ << "# Error of the field at a sample of the particles, against " << monitor_.reference() << ".\n"
           << "# rms and largest are relative to referenceRms [V/m]; sample: particles; seconds: of the measurement.\n"
           << "# Time sample rms largest referenceRms seconds" << std::endl;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/statisticsTables.H"
 
-#include "OSspecific.H"
+#include "output/postProcessingFile.H"
+
 #include "Pstream.H"
 
 #include <cmath>
@@ -14,9 +15,12 @@ namespace {
 /// Digits of the tables: a continued fit starts from them.
 constexpr int digits = 15;
 
+/// Folder of postProcessing.
+constexpr const char* group = "particleStatistics";
+
 Foam::fileName folderOf(const Foam::Time& runTime)
 {
-    return runTime.globalPath() / "postProcessing" / "particleStatistics";
+    return runTime.globalPath() / "postProcessing" / group;
 }
 
 double sumOf(const std::vector<double>& values)
@@ -68,10 +72,7 @@ void statisticsTables::openSeries(table& one)
     for (const earlierSample& sample : readEarlierSeries(folderOf(runTime_), region.name, runTime_.value())) {
         one.saturation.add(sample.chargingTime, sample.chargePerMass);
     }
-    const Foam::fileName folder = folderOf(runTime_) / runTime_.timeName();
-    Foam::mkDir(folder);
-    one.series.open(folder / (region.name + ".dat"));
-    one.series.precision(digits);
+    one.series = openPostProcessing(runTime_, group, region.name + ".dat", digits);
     one.series << "# Region " << region.name << ". SI units: s, kg, C, C/kg, m/s, N, Pa.\n"
                << "# chargingTime: a t since charging began. saturation, tau, fitDeviation: fit of chargePerMass by "
                   "saturation (1 - exp(-chargingTime/tau)) (S6.1) so far; nan while the values show no bend.\n";
@@ -183,11 +184,8 @@ void statisticsTables::writeAverages(table& one)
     if (!Foam::Pstream::master() || samples == 0) {
         return;
     }
-    const Foam::fileName folder = folderOf(runTime_) / runTime_.timeName();
-    Foam::mkDir(folder);
     const auto open = [&](const char* name, std::ofstream& file) {
-        file.open(folder / (region.name + name));
-        file.precision(digits);
+        file = openPostProcessing(runTime_, group, region.name + name, digits);
         file << "# Region " << region.name << ", " << samples << " samples up to " << runTime_.value() << " s. SI units.\n";
     };
     {

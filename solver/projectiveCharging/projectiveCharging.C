@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "projectiveCharging/projectiveCharging.H"
 
+#include "output/postProcessingFile.H"
 #include "settings/checkedDictionary.H"
 
-#include "OSspecific.H"
 #include "Pstream.H"
 
 #include <sstream>
@@ -38,13 +38,10 @@ projectiveCharging::projectiveCharging(const Foam::Time& runTime, const Projecti
     Foam::Info << "Projective charging: bursts of " << Foam::label(settings_.burst) << " field updates, each followed by the charging of "
                << Foam::label(settings_.leap) << " more\n"
                << Foam::endl;
-    if (!Foam::Pstream::master()) {
+    file_ = openPostProcessing(runTime, "projectiveCharging", "projectiveCharging.dat", 12);
+    if (!file_.is_open()) {
         return;
     }
-    const Foam::fileName folder = runTime.globalPath() / "postProcessing" / "projectiveCharging" / runTime.timeName();
-    Foam::mkDir(folder);
-    file_.open(folder / "projectiveCharging.dat");
-    file_.precision(12);
     file_ << "# One line per leap. chargingTime: simulated time and all leaps [s]. gain: of all particles in the burst [C].\n"
           << "# assumed: what the leap before had expected of it. error: their difference over the larger one; nan at the first leap.\n"
           << "# correlation: of what successive bursts give a particle beyond the fit. leapGain, toWalls: in the leap [C].\n"

@@ -3,11 +3,10 @@
 
 import math
 import random
-import tempfile
 import unittest
 
 from restart_test import DUMP, continuing
-from tiny_case import TinyCase
+from tiny_case import CaseTests, TinyCase
 from wall_charges_test import bed
 
 COUPLING = "constant/couplingProperties"
@@ -54,17 +53,7 @@ def moments(charges):
     return mean, math.sqrt(sum((q - mean)**2 for q in charges) / len(charges))
 
 
-class ProjectiveCharging(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def ran(self, case, ranks=1):
-        result = case.run(ranks=ranks)
-        self.assertEqual(result.code, 0, result.text[-3000:])
-        return result
-
+class ProjectiveCharging(CaseTests):
     def leaps(self, case, start="0"):
         lines = (case.path / "postProcessing/projectiveCharging" / start / "projectiveCharging.dat").read_text().splitlines()
         names = lines[len([line for line in lines if line.startswith("#")]) - 1][1:].replace("...", "").split()
@@ -160,13 +149,6 @@ class ProjectiveCharging(unittest.TestCase):
     def test_a_checkpoint_inside_a_burst_is_told(self):
         case = gas(self.folder, 0.02, burst=15, leap=2, number=2, write=10)
         self.assertIn("this checkpoint lies inside a burst", self.ran(case).text)
-
-    def refused(self, case, *texts):
-        result = case.run("-dry-run")
-        flat = " ".join(result.text.split())
-        self.assertEqual(result.code, 1, result.text)
-        for text in texts:
-            self.assertIn(text, flat)
 
     def test_contradictions_are_refused(self):
         case = gas(self.folder + "/a", 0.02, acceleration=10, burst=5, leap=3, number=2)

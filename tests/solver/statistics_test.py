@@ -10,7 +10,7 @@ import unittest
 import xml.etree.ElementTree
 
 from restart_test import continuing
-from tiny_case import PARTICLES, TinyCase
+from tiny_case import PARTICLES, CaseTests, TinyCase
 
 FILE = "system/particleStatistics"
 OUTLET = "top"  # of cases/singleSettling
@@ -72,19 +72,7 @@ def nearest_wall(place):
     return min(walls, key=lambda wall: wall[0])
 
 
-class Statistics(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def ran(self, case, ranks=1):
-        if ranks > 1:
-            case.decompose(ranks)
-        result = case.run(ranks=ranks)
-        self.assertEqual(result.code, 0, result.text[-3000:])
-        return result
-
+class Statistics(CaseTests):
     def test_numbers_are_those_of_the_written_particles(self):
         case = statistics_case(self.folder)
         self.ran(case)

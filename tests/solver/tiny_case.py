@@ -9,6 +9,8 @@ import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
+import unittest
 
 SIZE = 0.1  # [m]
 
@@ -227,3 +229,28 @@ class TinyCase:
                 for row, tag in enumerate(fields["tag"]):
                     found[int(tag)] = {name: values[row] for name, values in fields.items()}
         return found
+
+
+class CaseTests(unittest.TestCase):
+    """Tests that run cases in a folder of their own, `self.folder`, which goes with the test."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def ran(self, case, ranks=1):
+        """The result of himFoam, which must have ended well; cuts the case for several ranks first."""
+        if ranks > 1:
+            case.decompose(ranks)
+        result = case.run(ranks=ranks)
+        self.assertEqual(result.code, 0, result.text[-3000:])
+        return result
+
+    def refused(self, case, *texts):
+        """himFoam must not begin, and say all of these."""
+        result = case.run("-dry-run")
+        flat = " ".join(result.text.split())
+        self.assertEqual(result.code, 1, result.text)
+        for text in texts:
+            self.assertIn(text, flat)

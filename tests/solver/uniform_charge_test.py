@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """fixedUniformCharge: a run goes on with the mean charge on every particle, without charging, and with its walls charged."""
 
-import tempfile
 import unittest
 
 from restart_test import DUMP, continuing, last_frame
-from tiny_case import PARTICLES, TinyCase
+from tiny_case import PARTICLES, CaseTests, TinyCase
 from wall_charges_test import bed
 
 COUPLING = "constant/couplingProperties"
@@ -25,19 +24,7 @@ def long_case(folder, method="pairwiseSum"):
     return case
 
 
-class UniformCharge(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def ran(self, case, ranks=1):
-        if ranks > 1:
-            case.decompose(ranks)
-        result = case.run(ranks=ranks)
-        self.assertEqual(result.code, 0, result.text[-3000:])
-        return result
-
+class UniformCharge(CaseTests):
     def test_a_continued_run_keeps_the_total_and_what_walls_have(self):
         for method in ("pairwiseSum", "him"):
             case = long_case("%s/%s" % (self.folder, method), method)
@@ -105,13 +92,6 @@ class UniformCharge(unittest.TestCase):
                 self.assertEqual(row["min"], row["max"])
                 self.assertAlmostEqual(row["largestField"] / reference["largestField"], 1, delta=1e-11)
                 self.assertEqual(row["floor"], 0)
-
-    def refused(self, case, *texts):
-        result = case.run("-dry-run")
-        flat = " ".join(result.text.split())
-        self.assertEqual(result.code, 1, result.text)
-        for text in texts:
-            self.assertIn(text, flat)
 
     def test_contradictions_are_refused_together(self):
         still = [((0.05, 0.05, 0.05), (0., 0., 0.), 0.)]

@@ -2,10 +2,10 @@
 """Charge that contacts leave on an insulating wall: it lies on the face under the contact, is conserved, and acts."""
 
 import re
-import tempfile
 import unittest
 
 from insulating_walls_test import INTERFACE, slabs
+from tiny_case import CaseTests
 
 # Four spheres of 1 mm about to hit the wall from above, one of them charged, and one that stays away from it.
 FALLING = [
@@ -24,17 +24,10 @@ def bed(folder, method="him", target="middle", height=INTERFACE):
     return case
 
 
-class WallCharges(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def ran(self, case, ranks=1):
-        if ranks > 1:
-            case.decompose(ranks)
-        result = case.run(ranks=ranks)
-        self.assertEqual(result.code, 0, result.text[-3000:])
+class WallCharges(CaseTests):
+    def last_row(self, case, ranks=1):
+        """The last line of charge.dat of a run."""
+        self.ran(case, ranks)
         return case.charge_table()[1][-1]
 
     def faces(self, case, time="0.002"):
@@ -51,7 +44,7 @@ class WallCharges(unittest.TestCase):
 
     def test_charge_stays_on_the_faces_under_the_contacts_and_the_books_close(self):
         case = bed(self.folder)
-        row = self.ran(case)
+        row = self.last_row(case)
         everything = abs(row["wallFaces"]) + 7e-11
         self.assertGreater(abs(row["floor"]), 1e-12)
         self.assertAlmostEqual(row["wallFaces"], row["floor"], delta=1e-12 * everything)
@@ -65,26 +58,26 @@ class WallCharges(unittest.TestCase):
         self.assertAlmostEqual(sum(faces.values()) * 0.02**2, row["floor"], delta=1e-12 * everything)
 
     def test_any_insulating_wall_is_found_by_nearness(self):
-        named = self.ran(bed(self.folder + "/named"))
-        anyone = self.ran(bed(self.folder + "/any", target="insulating"))
+        named = self.last_row(bed(self.folder + "/named"))
+        anyone = self.last_row(bed(self.folder + "/any", target="insulating"))
         self.assertEqual(named["wallFaces"], anyone["wallFaces"])
 
     def test_a_wall_that_the_script_lets_charge_keeps_its_charge_where_the_case_says_so(self):
-        silent = self.ran(bed(self.folder + "/silent"))
+        silent = self.last_row(bed(self.folder + "/silent"))
         case = bed(self.folder + "/named")
         case.replace("DEM/in.cube", "kappa 20.0 area hertz", "kappa 20.0 area hertz wall floor conductor")
-        named = self.ran(case)
+        named = self.last_row(case)
         self.assertNotEqual(silent["wallFaces"], 0)
         self.assertEqual(named["wallFaces"], silent["wallFaces"])
 
     def test_any_number_of_ranks_gives_the_same_faces(self):
         for method, tolerance in (("him", 1e-9), ("p3m", 1e-9)):
             serial_case = bed("%s/%s1" % (self.folder, method), method)
-            serial = self.ran(serial_case)
+            serial = self.last_row(serial_case)
             faces = self.faces(serial_case)
             for ranks in (2, 4):
                 case = bed("%s/%s%d" % (self.folder, method, ranks), method)
-                row = self.ran(case, ranks)
+                row = self.last_row(case, ranks)
                 self.assertAlmostEqual(row["wallFaces"] / serial["wallFaces"], 1, delta=tolerance)
                 self.assertAlmostEqual(row["wallFaceError"], 0, delta=1e-12 * 1e-10)
                 for centre, charge in self.faces(case).items():
@@ -95,7 +88,7 @@ class WallCharges(unittest.TestCase):
         case = bed(self.folder, "p3m")
         case.replace("constant/couplingProperties", "walls {", "wallContactField self; walls {")
         case.replace("constant/couplingProperties", "wallContactField total;", "")
-        self.assertGreater(self.ran(case)["wallFaces"], 0)
+        self.assertGreater(self.last_row(case)["wallFaces"], 0)
         sphere = case.particles("0.002")[1]
         self.assertLess(sphere["charge"], 0)
         self.assertGreater(sphere["electricField"][2], 0)  # away from the wall, so the force is towards it
@@ -108,7 +101,7 @@ class WallCharges(unittest.TestCase):
         self.assertTrue(PARTICLES)
         script = straight.path / "DEM/in.cube"
         script.write_text(continuing(script.read_text()))
-        row = self.ran(straight)
+        row = self.last_row(straight)
         faces = self.faces(straight, "0.004")
         straight.replace("system/controlDict", "startTime 0;", "startTime 0.002;")
         again = straight.run()
