@@ -25,7 +25,7 @@ struct ParticleField {
     /// external field; NaN when the method has no potential.
     double energy = 0;
     /// Share of `field` that the particle's own images and induced charges make [V/m], so that field - ownResponse is the
-    /// field of the others; empty when the method does not know it.
+    /// field of the others; empty when the method does not know it or FieldSettings does not ask for it.
     Points ownResponse;
 };
 

@@ -65,6 +65,7 @@ struct FieldSettings {
     /// Where no wall is at a voltage, a net charge on the mesh gets a uniform charge density against it.
     bool neutralisingBackground = false;
     OutsideMesh outsideMesh = OutsideMesh::error;
+    bool ownResponse = true;  ///< compute ParticleField::ownResponse, which charging at walls needs
     NearFieldSettings nearField;
     PairwiseSumSettings pairwiseSum;
     HimSettings him;

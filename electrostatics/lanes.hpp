@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) || defined(__FMA__)
 #include <immintrin.h>
 #endif
 
@@ -105,8 +105,7 @@ HIM_INLINE void storeLanes(double* values, Lanes lanes)
 HIM_INLINE Lanes mulAdd(Lanes a, Lanes b, Lanes c)
 {
 #if defined(__FMA__)
-    return Lanes{__builtin_fma(a[0], b[0], c[0]), __builtin_fma(a[1], b[1], c[1]), __builtin_fma(a[2], b[2], c[2]),
-                 __builtin_fma(a[3], b[3], c[3])};
+    return _mm256_fmadd_pd(a, b, c);
 #else
     return a * b + c;
 #endif
@@ -135,7 +134,11 @@ HIM_INLINE Lanes zeroUnless(LaneMask mask, Lanes a)
 
 HIM_INLINE int countOf(LaneMask mask)
 {
+#if defined(__AVX2__)
+    return __builtin_popcount(static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask))));
+#else
     return static_cast<int>(-((mask[0] + mask[1]) + (mask[2] + mask[3])));
+#endif
 }
 
 /// Halves the exponent through the bits; relative error below 0.035 for any normal positive number.

@@ -16,6 +16,7 @@ FieldSettings strictSettings(const FieldSettings& settings)
     FieldSettings strict = settings;
     strict.method = "p3m";
     strict.externalField.setZero();
+    strict.ownResponse = false;
     const bool clouds = settings.method == "p3m";
     strict.p3m = {};
     strict.p3m.cloudCells =

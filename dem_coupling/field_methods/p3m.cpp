@@ -104,10 +104,12 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
     }
     result.field = atRows_.leftCols(3);
     result.potential = atRows_.col(3);
-    result.ownResponse = atRows_.rightCols(3);
-    if (!planes_.empty()) {
-        ownImageField(planes_, particles, settings_.permittivity, std::numeric_limits<double>::infinity(), images_,
-                      result.ownResponse);
+    result.ownResponse.resize(0, 3);
+    if (settings_.ownResponse && planes_.empty()) {
+        result.ownResponse = atRows_.rightCols(3);
+    } else if (settings_.ownResponse) {
+        const PhaseTimer timer(times_, Phase::near);
+        planes_.ownField(particles, settings_.permittivity, std::numeric_limits<double>::infinity(), result.ownResponse);
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
@@ -297,6 +299,7 @@ void P3m::gatherAtTargets()
     const PhaseTimer timer(times_, Phase::gather);
     const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
     const double ownPotential = coulombConstant * cloud_.potential(0);
+    const bool ownImages = settings_.ownResponse && planes_.empty();
     LocalPolynomial polynomial;
     Index fitted = -1;
     for (Index target = 0; target < sources_.targets; ++target) {
@@ -314,7 +317,9 @@ void P3m::gatherAtTargets()
         if (settings_.p3m.selfTerm) {
             atTargets_.row(target).head(3) += ownCloudGradient(target).transpose().array();
         }
-        addOwnImages(target);
+        if (ownImages) {
+            addOwnImages(target);
+        }
     }
 }
 

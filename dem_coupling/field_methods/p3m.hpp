@@ -56,7 +56,6 @@ private:
     bool matched_ = false;     ///< the mesh solves with the operator that is matched to the gather
     bool correct_ = false;     ///< deferred correction by a second solve
     WallImages planes_;     ///< of a convex mesh with plane conducting sides, else none
-    WallImages::Set images_;
     bool faceValues_ = false;  ///< some boundary face, on any rank, has a value besides the case's own
 
     CloudSources sources_;

@@ -76,8 +76,8 @@ void PairwiseSum::compute(const DemParticles& particles, ParticleField& result)
     }
     result.pairs = sumPairs(pairs, failure, particles, failedSources, communicator_);
     result.ownResponse.resize(0, 3);
-    if (settings_.pairwiseSum.images) {
-        ownImageField(walls_, particles, settings_.permittivity, settings_.pairwiseSum.truncation, images_, result.ownResponse);
+    if (settings_.pairwiseSum.images && settings_.ownResponse) {
+        walls_.ownField(particles, settings_.permittivity, settings_.pairwiseSum.truncation, result.ownResponse);
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);

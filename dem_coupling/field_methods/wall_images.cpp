@@ -41,6 +41,36 @@ bool square(const Plane& a, const Plane& b)
     return std::abs(a.normal.dot(b.normal)) < perpendicular;
 }
 
+/// Calls add(place, sign) for every image of a unit charge at x.
+template <class Add> void mirrorInAll(const std::vector<Plane>& planes, const Vector3& x, const Add& add)
+{
+    for (std::size_t a = 0; a < planes.size(); ++a) {
+        const Vector3 first = planes[a].mirror(x);
+        add(first, -1.0);
+        for (std::size_t b = a + 1; b < planes.size(); ++b) {
+            if (!square(planes[a], planes[b])) {
+                continue;
+            }
+            const Vector3 second = planes[b].mirror(first);
+            add(second, 1.0);
+            for (std::size_t c = b + 1; c < planes.size(); ++c) {
+                if (square(planes[a], planes[c]) && square(planes[b], planes[c])) {
+                    add(planes[c].mirror(second), -1.0);
+                }
+            }
+        }
+    }
+}
+
+/// The planes that the walls are for a charge at x.
+void setPlanes(const std::vector<ImageWall>& walls, const Vector3& x, std::vector<Plane>& planes)
+{
+    planes.clear();
+    for (const ImageWall& wall : walls) {
+        planes.push_back(planeFor(wall, x));
+    }
+}
+
 }  // namespace
 
 void WallImages::make(const Points& position, const Scalars& charge, Set& images) const
@@ -51,31 +81,12 @@ void WallImages::make(const Points& position, const Scalars& charge, Set& images
     std::vector<Plane> planes;
     for (Index row = 0; row < position.rows(); ++row) {
         const Vector3 x = position.row(row).matrix().transpose();
-        planes.clear();
-        for (const ImageWall& wall : walls_) {
-            planes.push_back(planeFor(wall, x));
-        }
-        const auto add = [&](const Vector3& place, double sign) {
+        setPlanes(walls_, x, planes);
+        mirrorInAll(planes, x, [&](const Vector3& place, double sign) {
             places.push_back(place);
             charges.push_back(sign * charge[row]);
             images.owner.push_back(row);
-        };
-        for (std::size_t a = 0; a < planes.size(); ++a) {
-            const Vector3 first = planes[a].mirror(x);
-            add(first, -1);
-            for (std::size_t b = a + 1; b < planes.size(); ++b) {
-                if (!square(planes[a], planes[b])) {
-                    continue;
-                }
-                const Vector3 second = planes[b].mirror(first);
-                add(second, 1);
-                for (std::size_t c = b + 1; c < planes.size(); ++c) {
-                    if (square(planes[a], planes[c]) && square(planes[b], planes[c])) {
-                        add(planes[c].mirror(second), -1);
-                    }
-                }
-            }
-        }
+        });
     }
     const auto count = static_cast<Index>(places.size());
     images.position.resize(count, 3);
@@ -86,20 +97,23 @@ void WallImages::make(const Points& position, const Scalars& charge, Set& images
     }
 }
 
-void ownImageField(const WallImages& walls, const DemParticles& particles, double permittivity, double reach,
-                   WallImages::Set& images, Points& field)
+void WallImages::ownField(const DemParticles& particles, double permittivity, double reach, Points& field) const
 {
-    field.setZero(particles.size(), 3);
-    walls.make(particles.position, particles.charge, images);
+    field.resize(particles.size(), 3);
     const double coulombConstant = 1.0 / (4.0 * pi * permittivity);
-    for (std::size_t n = 0; n < images.owner.size(); ++n) {
-        const Index row = images.owner[n];
-        const Vector3 r = (particles.position.row(row) - images.position.row(static_cast<Index>(n))).matrix().transpose();
-        const double distance = r.norm();
-        if (distance <= reach) {
-            const double scale = coulombConstant * images.charge[static_cast<Index>(n)] / (distance * distance * distance);
-            field.row(row) += (scale * r).transpose().array();
-        }
+    std::vector<Plane> planes;
+    for (Index row = 0; row < particles.size(); ++row) {
+        const Vector3 x = particles.position.row(row).matrix().transpose();
+        setPlanes(walls_, x, planes);
+        Vector3 sum = Vector3::Zero();
+        mirrorInAll(planes, x, [&](const Vector3& place, double sign) {
+            const Vector3 r = x - place;
+            const double distance = r.norm();
+            if (distance <= reach) {
+                sum += sign / (distance * distance * distance) * r;
+            }
+        });
+        field.row(row) = coulombConstant * particles.charge[row] * sum.transpose().array();
     }
 }
 

@@ -22,15 +22,12 @@ public:
         std::vector<Index> owner;
     };
     void make(const Points& position, const Scalars& charge, Set& images) const;
+    /// Coulomb field [V/m] of every particle's own images, those within `reach` [m], per row.
+    void ownField(const DemParticles& particles, double permittivity, double reach, Points& field) const;
     bool empty() const { return walls_.empty(); }
 
 private:
     std::vector<ImageWall> walls_;
 };
-
-/// Coulomb field [V/m] of every particle's own images, those within `reach` [m], per row.
-/// @param images  scratch
-void ownImageField(const WallImages& walls, const DemParticles& particles, double permittivity, double reach,
-                   WallImages::Set& images, Points& field);
 
 }  // namespace him

@@ -110,6 +110,7 @@ void FixEfieldHim::checkScene()
     if (!complaints.none()) {
         error->fix_error(FLERR, this, complaints.text().c_str());
     }
+    options_.field.ownResponse = charging != nullptr;
     method_ = FieldMethod::create(options_.field, nullptr, box, periodic, world, times_);
 }
 

@@ -2,33 +2,13 @@
 #include "electrostatics/p3m/cloud_deposit.hpp"
 
 #include "electrostatics/constants.hpp"
+#include "electrostatics/p3m/blocks.hpp"
 
 #include <Eigen/Cholesky>
-
-#include <cstring>
-
-// One binary serves every x86-64 processor: the loader picks the widest version that the machine has.
-#if defined(__x86_64__) && defined(__GNUC__)
-#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define HIM_CLONES
-#endif
 
 namespace him {
 
 namespace {
-
-constexpr Index blockSize = 8;
-using Block = double __attribute__((vector_size(blockSize * sizeof(double))));
-
-inline __attribute__((always_inline)) Block load(const double* from)
-{
-    Block block;
-    std::memcpy(&block, from, sizeof block);
-    return block;
-}
-
-inline __attribute__((always_inline)) void store(double* to, Block block) { std::memcpy(to, &block, sizeof block); }
 
 struct Cloud {
     double x, y, z;          ///< centre [m]
@@ -56,7 +36,7 @@ inline __attribute__((always_inline)) double addWeights(const Cloud& c, Index bl
         sum += w;
         store(cloud + n, load(cloud + n) + w * c.sign);
     }
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+    return sumOf(sum);
 }
 
 HIM_CLONES double addWeights1(const Cloud& c, Index blocks, const double* x, const double* y, const double* z,

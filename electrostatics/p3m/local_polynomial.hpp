@@ -11,7 +11,7 @@ namespace him {
 /// then by falling powers of x, then of y: x, y, z; x2, xy, xz, y2, yz, z2; x3, x2y, x2z, xy2, xyz, xz2, y3, y2z, yz2, z3; ...
 struct LocalPolynomial {
     static constexpr int mostCoefficients = 34;
-    static constexpr int paddedCoefficients = 40;  ///< a multiple of the eight that are worked on at a time
+    static constexpr int paddedCoefficients = 36;  ///< a multiple of the four that are worked on at a time
 
     Vector3 centre;
     Eigen::Matrix3d scale;  ///< [1/m]

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "electrostatics/p3m/polynomial_gather.hpp"
 
+#include "electrostatics/p3m/blocks.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define HIM_CLONES
-#endif
 
 namespace him {
 
@@ -48,20 +44,41 @@ std::uint64_t hashOf(const std::vector<std::int64_t>& key)
     return hash;
 }
 
-/// sums[k] += sum over points of values[p] matrix[p][k], eight at a time.
-HIM_CLONES void accumulate(const double* matrix, int padded, const double* values, int points, double* sums)
+/// sums[k] = sum over points of values[p] matrix[p][k], `blocks` blocks of k. Their number is fixed, so that the sums stay in
+/// registers.
+template <int blocks>
+inline __attribute__((always_inline)) void accumulateBlocks(const double* matrix, const double* values, int points,
+                                                            double* sums)
 {
-    using Block = double __attribute__((vector_size(64), aligned(8)));
-    Block total[LocalPolynomial::paddedCoefficients / 8] = {};
-    const int blocks = padded / 8;
-    for (int p = 0; p < points; ++p) {
-        const auto* row = reinterpret_cast<const Block*>(matrix + static_cast<std::ptrdiff_t>(p) * padded);
+    Block total[blocks] = {};
+    for (int p = 0; p < points; ++p, matrix += blocks * blockSize) {
+#pragma GCC unroll 16
         for (int b = 0; b < blocks; ++b) {
-            total[b] += row[b] * values[p];
+            total[b] += load(matrix + b * blockSize) * values[p];
         }
     }
+#pragma GCC unroll 16
     for (int b = 0; b < blocks; ++b) {
-        reinterpret_cast<Block*>(sums)[b] = total[b];
+        store(sums + b * blockSize, total[b]);
+    }
+}
+
+constexpr int blocksOf(int order)
+{
+    return (coefficientsOf(order) + blockSize - 1) / blockSize;
+}
+
+HIM_CLONES void accumulate(int order, const double* matrix, const double* values, int points, double* sums)
+{
+    switch (order) {
+    case 4:
+        return accumulateBlocks<blocksOf(4)>(matrix, values, points, sums);
+    case 3:
+        return accumulateBlocks<blocksOf(3)>(matrix, values, points, sums);
+    case 2:
+        return accumulateBlocks<blocksOf(2)>(matrix, values, points, sums);
+    default:
+        return accumulateBlocks<blocksOf(1)>(matrix, values, points, sums);
     }
 }
 
@@ -325,8 +342,8 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
             continue;
         }
         fit->order = order;
-        fit->padded = (columns + 7) / 8 * 8;
-        fit->matrix.assign(static_cast<std::size_t>(rows * fit->padded), 0.0);
+        const int padded = blocksOf(order) * blockSize;
+        fit->matrix.assign(static_cast<std::size_t>(rows * padded), 0.0);
         fit->laplacian.assign(static_cast<std::size_t>(rows), 0.0);
         // Second derivatives of the monomials of degree 2 at xi = 0, through the scale.
         const Eigen::Matrix3d metric = scale * scale.transpose();
@@ -334,7 +351,7 @@ const PolynomialGather::Fit* PolynomialGather::fitOf(Index cell, Stencil& stenci
                                            2 * metric(1, 1), 2 * metric(1, 2), 2 * metric(2, 2)};
         for (Index n = 0; n < rows; ++n) {
             for (int k = 0; k < columns; ++k) {
-                fit->matrix[static_cast<std::size_t>(n * fit->padded + k)] = inverse(k, n);
+                fit->matrix[static_cast<std::size_t>(n * padded + k)] = inverse(k, n);
             }
             for (int k = 0; order >= 2 && k < 6; ++k) {
                 fit->laplacian[static_cast<std::size_t>(n)] += second[static_cast<std::size_t>(k)] * inverse(3 + k, n);
@@ -378,7 +395,7 @@ void PolynomialGather::fit(Index cell, const Scalars& cellValues, const Scalars&
     for (const std::int32_t face : stencil.faces) {
         *value++ = givesValue(face) ? faceValues[face] - polynomial.value : h * faceValues[face];
     }
-    accumulate(fit.matrix.data(), fit.padded, values_.data(), static_cast<int>(points), polynomial.coefficients.data());
+    accumulate(fit.order, fit.matrix.data(), values_.data(), static_cast<int>(points), polynomial.coefficients.data());
 }
 
 double PolynomialGather::laplacian(Index cell, const Scalars& cellValues, const Scalars& faceValues)

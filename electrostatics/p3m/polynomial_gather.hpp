@@ -47,8 +47,7 @@ private:
     struct Fit {
         std::vector<std::int64_t> key;
         int order = 0;
-        int padded = 0;                 ///< coefficients per point, with padding
-        std::vector<double> matrix;     ///< `padded` numbers per point
+        std::vector<double> matrix;     ///< coefficients per point, padded to whole blocks
         std::vector<double> laplacian;  ///< one number per point [1/m2]
         Eigen::Matrix3d scale;
     };

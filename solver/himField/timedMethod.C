@@ -69,7 +69,9 @@ timedMethod::timedMethod(const FieldSettings& settings, snapshot& s, MPI_Comm co
 {
     MPI_Barrier(communicator);
     const double start = MPI_Wtime();
-    method_ = FieldMethod::create(settings, s.poisson.get(), s.box, s.periodic, communicator, times_);
+    FieldSettings withoutCharging = settings;
+    withoutCharging.ownResponse = false;
+    method_ = FieldMethod::create(withoutCharging, s.poisson.get(), s.box, s.periodic, communicator, times_);
     MPI_Barrier(communicator);
     createSeconds_ = MPI_Wtime() - start;
 }

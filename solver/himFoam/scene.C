@@ -21,6 +21,7 @@ void handElectrostaticsToDem(scene& s)
     s.dem->setWallRoles(roles);
     s.dem->setWallContactField(s.settings.wallContactField);
     s.dem->setPermittivity(s.settings.field.permittivity);
+    s.settings.field.ownResponse = s.dem->charging();
 }
 
 }  // namespace

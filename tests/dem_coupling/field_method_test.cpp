@@ -304,10 +304,11 @@ TEST(FieldMethod, reportsAllComplaintsTogether)
 
 }  // namespace
 /// Field of one charge of 4 pi eps0 C by the pair sum with images in these planes, each through the origin with this normal.
-ParticleField imageField(const Vector3& place, const std::vector<Vector3>& normals)
+ParticleField imageField(const Vector3& place, const std::vector<Vector3>& normals, bool ownResponse = true)
 {
     FieldSettings settings = settingsOf("pairwiseSum");
     settings.pairwiseSum.images = true;
+    settings.ownResponse = ownResponse;
     for (const Vector3& normal : normals) {
         settings.pairwiseSum.imageWalls.push_back({"wall", ImageWall::Shape::plane, Vector3::Zero(), normal, 0});
     }
@@ -334,6 +335,13 @@ TEST(PairwiseSum, pullsAChargeToAGroundedPlaneEdgeAndCornerByItsImages)
     EXPECT_LT((result.field.row(0).matrix().transpose() - Vector3::Constant(corner)).norm(), 1e-12);
     EXPECT_LT((result.ownResponse - result.field).matrix().norm(), 1e-12);
     EXPECT_EQ(result.pairs, 7);
+}
+
+TEST(PairwiseSum, leavesOutTheOwnResponseWhereNothingNeedsIt)
+{
+    const ParticleField result = imageField(Vector3(0.3, 0.3, 0.3), {-Vector3::UnitX()}, false);
+    EXPECT_EQ(result.ownResponse.rows(), 0);
+    EXPECT_GT(result.field.matrix().norm(), 0);
 }
 
 TEST(PairwiseSum, leavesOutPairsBeyondItsTruncation)
