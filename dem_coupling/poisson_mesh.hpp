@@ -12,6 +12,12 @@
 
 namespace him {
 
+/// A face between two cells that holds charge of its own.
+struct ChargedFace {
+    std::vector<Vector3> corners;  ///< [m], one after the other around it
+    std::int32_t cell;             ///< one of its cells
+};
+
 /// What a mesh field method needs of a finite-volume mesh besides its cells.
 class PoissonMesh : public CellMesh {
 public:
@@ -49,9 +55,10 @@ public:
         throw std::logic_error("this mesh has no correction");
     }
 
-    /// Potentials [V] of the charged walls that the last solve (and its correction) left, into their rows of
-    /// arrays().boundary; the other rows stay. Collective where the mesh has such walls.
-    virtual void chargedWallValues(Scalars& boundaryValue) const { static_cast<void>(boundaryValue); }
+    /// Faces of insulating walls inside the mesh that this rank counts, and their present charge [C] in the same order. They
+    /// are left out of solve(cellCharge, boundaryValue): p3m treats them like particles.
+    virtual std::vector<ChargedFace> chargedFaces() const { return {}; }
+    virtual void faceCharges(Scalars& charge) const { charge.resize(0); }
     /// Whether the gas's permittivity holds in all cells and no wall carries charge of its own, so that the charges and the
     /// edge of the mesh alone make the field.
     virtual bool chargesAlone() const { return true; }

@@ -11,13 +11,10 @@ namespace him {
 /// What the edge of the mesh does to the potential.
 enum class FaceCondition : std::uint8_t {
     conductor,  ///< the potential of the face is given
-    insulated,  ///< the outward normal gradient is given, zero on zeroGradient and symmetry patches
-    chargedWall ///< one side of an insulating wall inside the mesh: its potential comes with the solution. Its two cells are
-                ///< neighbours all the same: charges act through the wall, but the gradient jumps there
+    insulated   ///< the outward normal gradient is given, zero on zeroGradient and symmetry patches
 };
 
-/// Faces at which the mesh ends, one row each, and behind them the sides of charged walls. Faces to another rank or to a
-/// periodic copy are not among them.
+/// Faces at which the mesh ends, one row each. Faces to another rank or to a periodic copy are not among them.
 struct BoundaryFaces {
     Points centre;   ///< [m]
     Points normal;   ///< unit vector out of the mesh

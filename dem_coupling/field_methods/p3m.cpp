@@ -61,6 +61,7 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
       surroundings_(halo_.mesh(), radius_),
       deposit_(halo_.mesh(), surroundings_, radius_, exponent_),
       gather_(halo_.mesh(), surroundings_, static_cast<int>(settings.p3m.gather)),
+      walls_(mesh, halo_, surroundings_, radius_),
       near_(radius_, settings.permittivity),
       cloud_(radius_, exponent_),
       planes_(conductingPlanes(mesh.arrays(), communicator))
@@ -92,6 +93,10 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
             refuseOutside("p3m", locator_, particles, result.excludedCount, communicator_);
         }
         particlesOnMesh_.distribute(locator_, particles, halo_, radius_ + reachOfCells_, sources_);
+        if (!walls_.none()) {
+            walls_.update(halo_.exchange());
+            walls_.appendTo(sources_);
+        }
     }
     atTargets_.setZero(sources_.targets, valuesPerTarget);
     depositAndSolve();
@@ -139,13 +144,7 @@ void P3m::depositAndSolve()
         mesh_.useFiniteVolumeOperator();
     }
     mesh_.solve(cellCharge_, boundaryValue_);
-    const Scalars given = boundaryValue_;
-    const auto takeFaceValues = [&] {
-        boundaryValue_ = given;
-        mesh_.chargedWallValues(boundaryValue_);
-        halo_.forwardFaces(boundaryValue_);
-    };
-    takeFaceValues();
+    halo_.forwardFaces(boundaryValue_);
     takePotential();
     if (correct_) {
         // What the second-order solve leaves of eps laplacian(V) + rho = 0 at the cell centres, as charge.
@@ -156,7 +155,6 @@ void P3m::depositAndSolve()
                 + settings_.permittivity * mesh.volume[cell] * gather_.laplacian(cell, cellPotential_, boundaryValue_);
         }
         mesh_.correct(residual);
-        takeFaceValues();
         takePotential();
     }
 }
@@ -239,6 +237,7 @@ void P3m::sumNear(ParticleField& result)
         try {
             near_.screened(points_, cloud_, sums_);
             addHiddenPairs();
+            walls_.addNearPanels(sources_, settings_.permittivity, sums_.field, sums_.potential);
         } catch (const std::domain_error& error) {
             failure = error.what();
         }

@@ -3,6 +3,7 @@
 
 #include "dem_coupling/exchange/particles_on_mesh.hpp"
 #include "dem_coupling/field_method.hpp"
+#include "dem_coupling/field_methods/charged_walls.hpp"
 #include "dem_coupling/field_methods/wall_images.hpp"
 #include "electrostatics/near_field.hpp"
 #include "electrostatics/p3m/cloud.hpp"
@@ -50,6 +51,7 @@ private:
     SurroundingsTable surroundings_;
     CloudDeposit deposit_;
     PolynomialGather gather_;
+    ChargedWalls walls_;
     NearField near_;
     ChargeCloud cloud_;
     ParticlesOnMesh particlesOnMesh_;

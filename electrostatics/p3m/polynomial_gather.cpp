@@ -17,9 +17,6 @@ namespace {
 /// the fit does not depend on which came first.
 constexpr double rounding = 1e-7;
 
-/// Sides of one wall face have centres nearer than this share of the face size, whichever rank computed them.
-constexpr double samePlace = 1e-6;
-
 /// A fit whose gradient at the rim of the cell magnifies errors of the values more than this is refused.
 constexpr double mostAmplification = 30;
 
@@ -100,29 +97,7 @@ bool PolynomialGather::givesValue(std::int32_t face) const
 
 bool PolynomialGather::mirrors(Index face) const
 {
-    return mesh_.boundary.condition[static_cast<std::size_t>(face)] != FaceCondition::chargedWall
-           && walls_.mirrorsExactly(face) && mesh_.boundary.value[face] == 0;
-}
-
-/// Whether a charged wall stands between two neighbours: both have a side of it at the same place.
-bool PolynomialGather::wallBetween(std::int32_t cell, std::int32_t neighbour) const
-{
-    const BoundaryFaces& faces = mesh_.boundary;
-    const auto isWall = [&](std::int32_t face) {
-        return faces.condition[static_cast<std::size_t>(face)] == FaceCondition::chargedWall;
-    };
-    for (const std::int32_t here : mesh_.facesOfCell[cell]) {
-        if (!isWall(here)) {
-            continue;
-        }
-        for (const std::int32_t there : mesh_.facesOfCell[neighbour]) {
-            const double apart = (faces.centre.row(here) - faces.centre.row(there)).matrix().norm();
-            if (isWall(there) && apart < samePlace * faces.radius[here]) {
-                return true;
-            }
-        }
-    }
-    return false;
+    return walls_.mirrorsExactly(face) && mesh_.boundary.value[face] == 0;
 }
 
 const PolynomialGather::Stencil& PolynomialGather::stencilOf(Index cell)
@@ -171,9 +146,7 @@ void PolynomialGather::collect(Index cell, Stencil& stencil)
         for (; begin < end; ++begin) {
             const Node here = nodes_[begin];
             for (const std::int32_t neighbour : mesh_.neighbours[here.cell]) {
-                if (!wallBetween(here.cell, neighbour)) {
-                    add({neighbour, here.sign, here.planes, placeOf(neighbour, here.planes)});
-                }
+                add({neighbour, here.sign, here.planes, placeOf(neighbour, here.planes)});
             }
             for (const std::int32_t face : mesh_.facesOfCell[here.cell]) {
                 if (!mirrors(face)) {
@@ -221,9 +194,6 @@ Eigen::Matrix3d PolynomialGather::scaleOf(Index cell) const
     const Vector3 centre = mesh_.centreOf(cell);
     int steps = 0;
     for (const std::int32_t neighbour : mesh_.neighbours[cell]) {
-        if (wallBetween(static_cast<std::int32_t>(cell), neighbour)) {
-            continue;
-        }
         const Vector3 step = mesh_.centreOf(neighbour) - centre;
         moment += step * step.transpose();
         ++steps;

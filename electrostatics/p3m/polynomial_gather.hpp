@@ -13,8 +13,8 @@ namespace him {
 
 /// Weighted least-squares polynomials through the own value of a cell, over a few layers of cells around it. Where charges
 /// are mirrored exactly in a wall without voltage, the layers go on behind it with the mirrored cells and their values,
-/// negative at a conductor; elsewhere boundary faces are points of their own: values on conductors and charged walls, normal
-/// gradients on insulated faces. No stencil goes through a charged wall. Cells whose stencils look alike share one fit, so a
+/// negative at a conductor; elsewhere boundary faces are points of their own: values on conductors, normal gradients on
+/// insulated faces. Cells whose stencils look alike share one fit, so a
 /// uniform mesh needs a handful of them.
 class PolynomialGather {
 public:
@@ -63,7 +63,6 @@ private:
     bool givesValue(std::int32_t face) const;
     /// Whether the layers of a stencil go on behind this boundary face.
     bool mirrors(Index face) const;
-    bool wallBetween(std::int32_t cell, std::int32_t neighbour) const;
     Eigen::Matrix3d scaleOf(Index cell) const;
     const Fit* fitOf(Index cell, Stencil& stencil);
 

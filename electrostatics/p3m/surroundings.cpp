@@ -19,11 +19,6 @@ constexpr double sameWall = 0.5;
 /// A cell centre counts as beyond a plane when it is farther out than this share of the cell size.
 constexpr double beyond = 1e-3;
 
-bool isChargedWall(const BoundaryFaces& faces, Index face)
-{
-    return faces.condition[static_cast<std::size_t>(face)] == FaceCondition::chargedWall;
-}
-
 }  // namespace
 
 bool Surroundings::reaches(Index cell) const
@@ -48,9 +43,6 @@ void SurroundingsTable::findPlanes()
     planeOfFace_.assign(static_cast<std::size_t>(faces.size()), -1);
     constexpr double cells = 1e4;  // rounding of a normal's components
     for (Index face = 0; face < faces.size(); ++face) {
-        if (isChargedWall(faces, face)) {
-            continue;  // charges act through it
-        }
         const Vector3 normal = faces.normal.row(face).matrix().transpose();
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
         const double sign = faces.condition[static_cast<std::size_t>(face)] == FaceCondition::conductor ? -1.0 : 1.0;
@@ -103,9 +95,6 @@ void SurroundingsTable::findExactFaces()
     exact_.assign(static_cast<std::size_t>(faces.size()), false);
     std::vector<Box> boxes(planes_.size());
     for (Index face = 0; face < faces.size(); ++face) {
-        if (isChargedWall(faces, face)) {
-            continue;
-        }
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
         const Vector3 normal = faces.normal.row(face).matrix().transpose();
         const Vector3 extent = faces.radius[face] * (1 - normal.array().square()).max(0).sqrt().matrix();
@@ -125,10 +114,6 @@ void SurroundingsTable::findExactFaces()
     const double reach = 2 * radius_ * (1 - 1e-9);
     std::vector<std::size_t> near;
     for (Index face = 0; face < faces.size(); ++face) {
-        if (isChargedWall(faces, face)) {
-            exact_[static_cast<std::size_t>(face)] = true;  // no image stands behind it that could leave anything
-            continue;
-        }
         const auto own = static_cast<std::size_t>(planeOfFace_[static_cast<std::size_t>(face)]);
         const Vector3 centre = faces.centre.row(face).matrix().transpose();
         near.clear();
@@ -199,7 +184,7 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
     for (const std::int32_t other : reached_) {
         for (const std::int32_t face : mesh_.facesOfCell[other]) {
             const double away = (faces.centre.row(face).matrix().transpose() - centre).norm();
-            if (isChargedWall(faces, face) || away > reach + faces.radius[face]) {
+            if (away > reach + faces.radius[face]) {
                 continue;
             }
             wallPlanes.push_back(planeOfFace_[static_cast<std::size_t>(face)]);

@@ -51,7 +51,7 @@ public:
         return *entry;
     }
     const std::vector<WallPlane>& planes() const { return planes_; }
-    /// Plane of a boundary face, an index into planes(); -1 for a side of a charged wall.
+    /// Plane of a boundary face, an index into planes().
     Index planeOf(Index face) const { return planeOfFace_[static_cast<std::size_t>(face)]; }
     /// Whether the images of every charge make the value of this boundary face exactly that of the case.
     bool mirrorsExactly(Index face) const { return exact_[static_cast<std::size_t>(face)]; }

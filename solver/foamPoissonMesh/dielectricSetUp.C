@@ -187,7 +187,6 @@ void dielectrics::findFaces(const volScalarField& potential, const labelList& wa
         if (own != across || wall >= 0) {
             faces_.push_back({patch, index, cell, other, own / ((1 - weight) * length), across / (weight * length),
                               area, wall, counted});
-            hasInternalWalls_ = hasInternalWalls_ || wall >= 0;
         }
     };
     const auto harmonic = [](scalar weight, scalar own, scalar across) {
@@ -233,7 +232,6 @@ void dielectrics::findFaces(const volScalarField& potential, const labelList& wa
             owned_.push_back(n);
         }
     }
-    reduce(hasInternalWalls_, orOp<bool>());
 }
 
 }  // namespace him

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamPoissonMesh/dielectrics.H"
 
-#include "foamPoissonMesh/conversions.H"
 #include "foamPoissonMesh/insulatingWallFvPatchScalarField.H"
 
 #include "linear.H"
@@ -46,16 +45,15 @@ Foam::label dielectrics::meshFaceOf(const specialFace& face) const
     return face.patch < 0 ? face.index : relative_.mesh().boundary()[face.patch].start() + face.index;
 }
 
-Index dielectrics::rowsOf(const specialFace& face)
+bool dielectrics::isInside(const specialFace& face)
 {
-    const bool insideWall = face.wall >= 0 && face.own + face.across > 0;
-    return insideWall ? (face.other >= 0 ? 2 : 1) : 0;
+    return face.wall >= 0 && face.own + face.across > 0;
 }
 
 void dielectrics::addShares(Scalars& cellCharge) const
 {
     for (const specialFace& face : faces_) {
-        if (rowsOf(face) == 0) {
+        if (!isInside(face)) {
             continue;
         }
         const double perSide = chargeOf(face) * face.area / (face.own + face.across);
@@ -114,64 +112,14 @@ void dielectrics::updatePatches(volScalarField& potential) const
     }
 }
 
-void dielectrics::appendTo(BoundaryFaces& faces) const
+bool dielectrics::insideMesh(label owned) const
 {
-    const fvMesh& mesh = relative_.mesh();
-    const auto add = [&](label face, label cell, bool outOfOwner, Index row) {
-        const vector normal = mesh.faceAreas()[face] / mag(mesh.faceAreas()[face]);
-        faces.centre.row(row) = toEigen(mesh.faceCentres()[face]).transpose().array();
-        faces.normal.row(row) = toEigen(outOfOwner ? normal : -normal).transpose().array();
-        faces.area[row] = mag(mesh.faceAreas()[face]);
-        scalar radius = 0;
-        for (const label point : mesh.faces()[face]) {
-            radius = max(radius, mag(mesh.points()[point] - mesh.faceCentres()[face]));
-        }
-        faces.radius[row] = radius;
-        faces.value[row] = 0;
-        faces.cell.push_back(static_cast<std::int32_t>(cell));
-        faces.condition.push_back(FaceCondition::chargedWall);
-    };
-    Index rows = faces.size();
-    Index row = rows;
-    for (const specialFace& face : faces_) {
-        rows += rowsOf(face);
-    }
-    faces.centre.conservativeResize(rows, 3);
-    faces.normal.conservativeResize(rows, 3);
-    for (Scalars* values : {&faces.area, &faces.radius, &faces.value}) {
-        values->conservativeResize(rows);
-    }
-    for (const specialFace& face : faces_) {
-        if (rowsOf(face) == 0) {
-            continue;
-        }
-        add(meshFaceOf(face), face.cell, true, row++);
-        if (face.other >= 0) {
-            add(meshFaceOf(face), face.other, false, row++);
-        }
-    }
+    return isInside(faces_[owned_[static_cast<std::size_t>(owned)]]);
 }
 
-void dielectrics::wallValues(const volScalarField& potential, const volScalarField& more, Scalars& values) const
+label dielectrics::cellOf(label owned) const
 {
-    Index rows = 0;
-    for (const specialFace& face : faces_) {
-        rows += rowsOf(face);
-    }
-    Index row = values.size() - rows;
-    const std::vector<scalarField> across = valuesAcross(potential);
-    const std::vector<scalarField> moreAcross = valuesAcross(more);
-    for (const specialFace& face : faces_) {
-        if (rowsOf(face) == 0) {
-            continue;
-        }
-        const double value = valueAt(face, potential, across) + valueAt(face, more, moreAcross)
-                             + chargeOf(face) / (permittivity_ * (face.own + face.across));
-        values[row++] = value;
-        if (face.other >= 0) {
-            values[row++] = value;
-        }
-    }
+    return faces_[owned_[static_cast<std::size_t>(owned)]].cell;
 }
 
 Foam::face dielectrics::polygonOf(label owned) const

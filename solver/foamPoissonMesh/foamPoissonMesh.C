@@ -107,11 +107,29 @@ Scalars foamPoissonMesh::withWalls(const Scalars& cellCharge) const
     return all;
 }
 
-void foamPoissonMesh::chargedWallValues(Scalars& boundaryValue) const
+std::vector<ChargedFace> foamPoissonMesh::chargedFaces() const
 {
-    if (dielectrics_ && part_) {
-        dielectrics_->wallValues(part_->potential, part_->correction, boundaryValue);
+    std::vector<ChargedFace> faces;
+    for (label owned = 0; dielectrics_ && owned < dielectrics_->ownedFaces(); ++owned) {
+        if (dielectrics_->insideMesh(owned)) {
+            faces.push_back({{}, static_cast<std::int32_t>(dielectrics_->cellOf(owned))});
+            for (const label point : dielectrics_->polygonOf(owned)) {
+                faces.back().corners.push_back(toEigen(mesh_.points()[point]));
+            }
+        }
     }
+    return faces;
+}
+
+void foamPoissonMesh::faceCharges(Scalars& charge) const
+{
+    std::vector<double> charges;
+    for (label owned = 0; dielectrics_ && owned < dielectrics_->ownedFaces(); ++owned) {
+        if (dielectrics_->insideMesh(owned)) {
+            charges.push_back(dielectrics_->surfaceCharge(owned) * dielectrics_->areaOf(owned));
+        }
+    }
+    charge = Eigen::Map<const Scalars>(charges.data(), static_cast<Index>(charges.size()));
 }
 
 Vector3 foamPoissonMesh::cellCentre(Index cell) const

@@ -60,13 +60,12 @@ void readStart(volScalarField& field)
 
 }  // namespace
 
-foamPoissonMesh::meshPart::meshPart(const Foam::volScalarField& electricPotential, const potentialNumerics& numerics,
-                                    const dielectrics* matter)
+foamPoissonMesh::meshPart::meshPart(const Foam::volScalarField& electricPotential, const potentialNumerics& numerics)
     : potential(makeField("meshPotential", electricPotential)),
       correction(IOobject("meshPotentialCorrection", electricPotential.time().timeName(), electricPotential.mesh()),
                  electricPotential.mesh(), dimensionedScalar(electricPotential.dimensions(), Zero),
                  extrapolatedCalculatedFvPatchScalarField::typeName),
-      equation(potential, numerics, matter)
+      equation(potential, numerics)
 {
     readStart(potential);
     readStart(correction);
@@ -76,7 +75,7 @@ foamPoissonMesh::meshPart::meshPart(const Foam::volScalarField& electricPotentia
 foamPoissonMesh::meshPart& foamPoissonMesh::part()
 {
     if (!part_) {
-        part_ = std::make_unique<meshPart>(electricPotential_, numerics_, dielectrics_.get());
+        part_ = std::make_unique<meshPart>(electricPotential_, numerics_);
     }
     return *part_;
 }
@@ -90,9 +89,6 @@ const MeshArrays& foamPoissonMesh::arrays() const
             throw std::runtime_error(complaints.text());
         }
         arrays_ = std::make_unique<MeshArrays>(makeMeshArrays(electricPotential_));
-        if (dielectrics_) {
-            dielectrics_->appendTo(arrays_->boundary);
-        }
     }
     updateVoltages(electricPotential_, *arrays_);
     return *arrays_;
@@ -114,10 +110,9 @@ void foamPoissonMesh::setBoundaryValues(const Scalars& boundaryValue)
     }
 }
 
-void foamPoissonMesh::solve(const Scalars& particleCharge, const Scalars& boundaryValue)
+void foamPoissonMesh::solve(const Scalars& cellCharge, const Scalars& boundaryValue)
 {
     partIsLatest_ = true;
-    const Scalars cellCharge = withWalls(particleCharge);
     partIsNew_ = mustSolve(cellCharge, partSolvedCharge_);
     if (!partIsNew_) {
         return;

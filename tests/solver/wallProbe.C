@@ -11,8 +11,6 @@ Description
         <wall>.potential, <wall>.least, <wall>.most   V_f of the wall [V]
         <patch>.flux    integral of eps E . n over a patch, n out of the mesh [C]
         charge          all there is [C]
-        partDifference  largest difference of p3m's own solve, which must be
-                        the same where no particle is [V]
 
     Fields and wallSurfaceCharge are written to the start time.
 
@@ -127,19 +125,6 @@ int main(int argc, char* argv[])
     say("charge", all);
     sayWalls(matter, poisson->electricPotential());
     sayFluxes(matter, poisson->electricPotential(), settings.field.permittivity);
-    him::FieldSettings p3m;
-    p3m.method = "p3m";
-    him::Complaints notForP3m;
-    him::checkConditions(p3m, *poisson, notForP3m);
-    if (notForP3m.none()) {
-        poisson->solve(charge, poisson->arrays().boundary.value);
-        double worst = 0;
-        for (him::Index cell = 0; cell < poisson->cellCount(); ++cell) {
-            const double value = poisson->electricPotential()[static_cast<Foam::label>(cell)];
-            worst = std::max(worst, std::abs(poisson->potential(cell) - value));
-        }
-        say("partDifference", Foam::returnReduce(Foam::scalar(worst), Foam::maxOp<Foam::scalar>()));
-    }
     poisson->electricPotential().write();
     poisson->electricFieldOfCells().write();
     matter.write();

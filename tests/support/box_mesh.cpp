@@ -59,6 +59,22 @@ std::vector<Box> BoxMesh::cellBoxes() const
     return boxes;
 }
 
+void BoxMesh::chargeWall(Index plane, double height, const std::function<double(const Vector3&)>& density)
+{
+    std::vector<double> charges;
+    for (Index cell = 0; cell < cellCount(); ++cell) {
+        const Vector3 centre = cellCentre(cell) + 0.5 * size_[0] * Vector3::UnitX();
+        if (indicesOf(cell)[0] != plane || centre[2] - box_.lower[2] > height) {
+            continue;
+        }
+        const Vector3 y = 0.5 * size_[1] * Vector3::UnitY();
+        const Vector3 z = 0.5 * size_[2] * Vector3::UnitZ();
+        chargedFaces_.push_back({{centre - y - z, centre + y - z, centre + y + z, centre - y + z}, static_cast<std::int32_t>(cell)});
+        charges.push_back(density(centre) * size_[1] * size_[2]);
+    }
+    faceCharge_ = Eigen::Map<const Scalars>(charges.data(), static_cast<Index>(charges.size()));
+}
+
 void BoxMesh::makeArrays()
 {
     int rank = 0;

@@ -4,6 +4,7 @@
 #include "dem_coupling/poisson_mesh.hpp"
 
 #include <array>
+#include <functional>
 #include <mpi.h>
 
 namespace him {
@@ -32,6 +33,13 @@ public:
     void correct(const Scalars& residual) override;
     bool useMatchedOperator() override;
     void useFiniteVolumeOperator() override { matched_ = false; }
+
+    /// Gives the faces between layers of cells across x a charge per area: those with centres up to `height` above the lower wall.
+    /// @param plane  number of the layer below the wall, from 0
+    /// @param density  [C/m2] at the centre of a face
+    void chargeWall(Index plane, double height, const std::function<double(const Vector3&)>& density);
+    std::vector<ChargedFace> chargedFaces() const override { return chargedFaces_; }
+    void faceCharges(Scalars& charge) const override { charge = faceCharge_; }
 
     /// Whether this mesh solves directly, as a uniform grounded box, and so has the matched operator. Off, it stands for a
     /// mesh of any shape.
@@ -67,6 +75,8 @@ private:
     double chargeOnMesh_ = 0;
     MeshArrays arrays_;
     bool matched_ = false;
+    std::vector<ChargedFace> chargedFaces_;
+    Scalars faceCharge_;  ///< [C]
 };
 
 }  // namespace him

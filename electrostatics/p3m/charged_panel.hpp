@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "electrostatics/types.hpp"
+
+#include <array>
+#include <vector>
+
+namespace him {
+
+/// A flat triangle or quadrangle with a unit charge spread evenly over it. Factors of 1/(4 pi eps) are left out.
+struct ChargedPanel {
+    std::array<Vector3, 4> corner;  ///< [m], one after the other around it
+    int corners = 0;                ///< 3 or 4
+    Vector3 centre;                 ///< mean of the corners [m]
+    double radius = 0;              ///< largest distance of a corner from the centre [m]
+    double area = 0;                ///< [m2]
+
+    /// Field [1/m2] and potential [1/m] at a point, to round-off (Wilton et al. 1984, IEEE Trans. Antennas Propag. 32(3),
+    /// 276-281, eqs. 5 and 6). In the plane of the panel the normal field is the mean of both sides, zero; on an edge it is
+    /// not finite.
+    void addField(const Vector3& point, double factor, Vector3& field, double& potential) const;
+
+    /// Gauss points, of equal charge together with their shares: 4 in a quadrangle, 3 in a triangle. Moments up to the second
+    /// (third) degree are those of the panel.
+    struct Point {
+        Vector3 position;  ///< [m]
+        double share;      ///< of the charge
+    };
+    std::vector<Point> points() const;
+};
+
+/// A polygon cut into panels: flat quadrangles into pieces with sides of at most `longest` [m], other polygons into triangles
+/// around their centre.
+std::vector<ChargedPanel> panelsOf(const std::vector<Vector3>& polygon, double longest);
+
+}  // namespace him

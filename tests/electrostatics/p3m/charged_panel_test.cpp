@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "electrostatics/p3m/charged_panel.hpp"
+
+#include "electrostatics/constants.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace him {
+
+namespace {
+
+struct Field {
+    Vector3 field = Vector3::Zero();
+    double potential = 0;
+};
+
+Field exactOf(const std::vector<ChargedPanel>& panels, const Vector3& place)
+{
+    double area = 0;
+    for (const ChargedPanel& panel : panels) {
+        area += panel.area;
+    }
+    Field sum;
+    for (const ChargedPanel& panel : panels) {
+        panel.addField(place, panel.area / area, sum.field, sum.potential);
+    }
+    return sum;
+}
+
+Field ofPoints(const std::vector<ChargedPanel>& panels, const Vector3& place)
+{
+    double area = 0;
+    for (const ChargedPanel& panel : panels) {
+        area += panel.area;
+    }
+    Field sum;
+    for (const ChargedPanel& panel : panels) {
+        for (const ChargedPanel::Point& point : panel.points()) {
+            const Vector3 r = place - point.position;
+            sum.field += panel.area / area * point.share * r / std::pow(r.norm(), 3);
+            sum.potential += panel.area / area * point.share / r.norm();
+        }
+    }
+    return sum;
+}
+
+const std::vector<Vector3> square{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+const std::vector<Vector3> kite{{0, 0, 1}, {2, 0.3, 1}, {1.6, 1.9, 1}, {-0.4, 1.2, 1}};
+const std::vector<Vector3> pentagon{{1, 0, 0}, {1, 1, 0.2}, {1, 1.4, 0.9}, {1, 0.6, 1.5}, {1, -0.3, 0.8}};
+
+}  // namespace
+
+TEST(ChargedPanel, hasTheFieldOfItsSolidAngleOnTheAxisOfASquare)
+{
+    for (const double z : {1e-3, 0.3, 2.0, 40.0}) {
+        const Field found = exactOf(panelsOf(square, 9), {1, 1, z});
+        // Solid angle of a square of side a at the height z
+        const double a = 2;
+        const double angle = 4 * std::asin(a * a / (a * a + 4 * z * z));
+        EXPECT_NEAR(found.field[2] * a * a / angle, 1, 1e-11) << z;
+        EXPECT_LT(found.field.head<2>().norm(), 1e-12);
+    }
+}
+
+TEST(ChargedPanel, isASheetCloseToItsMiddleAndAPointFarAway)
+{
+    const Field close = exactOf(panelsOf(square, 9), {1.1, 0.9, -1e-9});
+    EXPECT_NEAR(close.field[2], -2 * pi / 4, 1e-8);
+    const Field far = exactOf(panelsOf(square, 9), {1 + 3e3, 1 + 2e3, 6e3});
+    EXPECT_NEAR(far.potential * 7e3, 1, 1e-6);
+    EXPECT_NEAR(far.field.norm() * 49e6, 1, 1e-6);
+}
+
+TEST(ChargedPanel, hasAPotentialWhoseGradientIsItsField)
+{
+    const double step = 1e-5;
+    for (const auto& polygon : {square, kite, pentagon}) {
+        for (const Vector3& place :
+             {Vector3(0.4, 0.7, 1.3), Vector3(3, -1, 0.2), Vector3(1.2, 1.1, -0.4), Vector3(-1, 2, 1)}) {
+            const auto panels = panelsOf(polygon, 0.9);
+            const Field here = exactOf(panels, place);
+            for (int axis = 0; axis < 3; ++axis) {
+                const Vector3 along = step * Vector3::Unit(axis);
+                const double slope =
+                    (exactOf(panels, place + along).potential - exactOf(panels, place - along).potential) / (2 * step);
+                EXPECT_NEAR(here.field[axis], -slope, 1e-8);
+            }
+        }
+    }
+}
+
+TEST(ChargedPanel, isTheSameHoweverItIsCut)
+{
+    const Vector3 place(0.7, 0.8, 1.4);
+    for (const auto& polygon : {square, kite}) {
+        const Field whole = exactOf(panelsOf(polygon, 9), place);
+        const Field cut = exactOf(panelsOf(polygon, 0.3), place);
+        EXPECT_LT((whole.field - cut.field).norm(), 1e-12);
+        EXPECT_NEAR(whole.potential, cut.potential, 1e-12);
+        EXPECT_GE(panelsOf(polygon, 0.3).size(), 30u);
+    }
+    // A pentagon is triangles around its centre; the same from points dense enough
+    const Field pieces = exactOf(panelsOf(pentagon, 9), {1.3, 0.5, 0.6});
+    EXPECT_GT(pieces.field[0], 0);
+    EXPECT_EQ(panelsOf(pentagon, 9).size(), 5u);
+}
+
+TEST(ChargedPanel, isServedByItsPointsFromTwoAndAHalfRadiiOn)
+{
+    const std::vector<std::vector<Vector3>> flat{square, kite, {{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}}};
+    for (const auto& polygon : flat) {
+        const auto panels = panelsOf(polygon, 9);
+        ASSERT_EQ(panels.size() == 1, polygon.size() == 4);
+        double worst = 0;
+        for (const Vector3& direction : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(1, 1, 0), Vector3(1, 0.3, 1)}) {
+            const Vector3 place = panels[0].centre + 2.5 * panels[0].radius * direction.normalized();
+            Field exact, points;
+            panels[0].addField(place, 1, exact.field, exact.potential);
+            for (const ChargedPanel::Point& point : panels[0].points()) {
+                const Vector3 r = place - point.position;
+                points.field += point.share * r / std::pow(r.norm(), 3);
+            }
+            worst = std::max(worst, (points.field - exact.field).norm() / exact.field.norm());
+        }
+        std::printf("error of the points at 2.5 radii: %.2g\n", worst);
+        EXPECT_LT(worst, 0.005);
+    }
+}
+
+TEST(ChargedPanel, givesItsWholeChargeToItsPoints)
+{
+    for (const auto& polygon : {square, kite, pentagon}) {
+        const auto panels = panelsOf(polygon, 0.7);
+        for (const ChargedPanel& panel : panels) {
+            double share = 0;
+            for (const ChargedPanel::Point& point : panel.points()) {
+                share += point.share;
+            }
+            EXPECT_NEAR(share, 1, 1e-12);
+        }
+        const Field far = ofPoints(panels, {0, 0, 1e4});
+        EXPECT_NEAR(far.potential * 1e4, 1, 1e-3);
+    }
+}
+
+}  // namespace him
