@@ -10,14 +10,15 @@ INNER = 0.48  # half width of the cube in the middle of a sphere
 
 BOX = """
 scale %(scale).12g;
-vertices ((0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1));
-blocks (hex (0 1 2 3 4 5 6 7) (%(cells)d %(cells)d %(cells)d) simpleGrading (1 1 1));
+vertices ((0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 %(height).12g) (1 0 %(height).12g) (1 1 %(height).12g) (0 1 %(height).12g));
+blocks (hex (0 1 2 3 4 5 6 7) (%(cells)d %(cells)d %(up)d) simpleGrading (1 1 1));
 boundary ( walls { type wall; faces ((0 3 2 1) (4 5 6 7) (0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); } );
 """
 
 
-def box(size, cells, diameter):
-    return BOX % {"scale": size * diameter, "cells": cells}
+def box(size, cells, diameter, height=1, up=None):
+    """A box of `size`, `height` times as high; `cells` across and `up` upwards."""
+    return BOX % {"scale": size * diameter, "cells": cells, "height": height, "up": up or cells}
 
 
 def cylinder(radius, height, cell, diameter):

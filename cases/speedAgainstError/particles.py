@@ -119,6 +119,12 @@ def charges(rng, count, kind):
     return np.ones(count) if kind == "like" else rng.choice([-1.0, 1.0], count)
 
 
+def snapshot(path, diameter, unit_charge):
+    """A table of a run in SI units: positions in diameters, charges in units."""
+    table = np.loadtxt(path, delimiter=",", skiprows=1)
+    return table[:, :3] / diameter, table[:, 3] / unit_charge
+
+
 def write_csv(path, position, charge, diameter, unit_charge):
     """Table for himField in SI units."""
     table = np.column_stack([position * diameter, charge * unit_charge])

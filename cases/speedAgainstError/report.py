@@ -109,9 +109,18 @@ def draw_growth(scenes, path):
     plt.close(figure)
 
 
-def fastest(entries, error):
-    """The fastest of (name, error, seconds) whose error is at most 1.5 times the wanted one."""
-    return min((entry for entry in entries if entry[1] <= 1.5 * error), key=lambda entry: entry[2], default=None)
+def seconds_at(entries, error):
+    """Time at exactly this error, between the fastest settings on both sides of it (straight in the logarithms), and the names of
+    these; None where the settings do not reach from one side to the other."""
+    front = []
+    for name, found, seconds in sorted(entries, key=lambda entry: entry[2]):
+        if not front or found < front[-1][1]:
+            front.append((name, found, seconds))
+    for (worse, above, fast), (better, below, slow) in zip(front, front[1:]):
+        if below <= error <= above:
+            share = math.log(above / error) / math.log(above / below)
+            return math.exp(math.log(fast) + share * math.log(slow / fast)), "%s to %s" % (worse, better)
+    return None
 
 
 def lammps_section(pair):
@@ -123,15 +132,15 @@ def lammps_section(pair):
             "judges LAMMPS differs by %s from p3m-4h, whose error against the exact field of the box stands below.\n\n" % (
                 pair["scene"], pair["particles"], 8 * pair["particles"], pair["rounds"], number(pair["check"], 2)))
     summary = []
-    for wanted in (3e-2, 1e-2, 1e-3):
-        us, them = fastest(pair["ours"], wanted), fastest(pair["theirs"], wanted)
-        if us and them:
-            summary.append("At an error of at most %g: %s (%s) %s ms, LAMMPS %s (%s) %s ms: factor %s." % (
-                1.5 * wanted, us[0], number(us[1], 2), number(1e3 * us[2]), them[0], number(them[1], 2), number(1e3 * them[2]),
-                number(them[2] / us[2])))
-        elif them:
-            summary.append("At an error of at most %g: no method of the table gets there, LAMMPS in %s ms." % (1.5 * wanted, number(1e3 * them[2])))
-    return text + table(["program", "settings", "RMS error", "ms per field", "us per charge"], rows) + "\n" + "\n\n".join(summary) + "\n"
+    for wanted in (3e-2, 1e-2, 3e-3, 1e-3):
+        us, them = seconds_at(pair["ours"], wanted), seconds_at(pair["theirs"], wanted)
+        factor = them[0] / us[0] if us and them else math.nan
+        summary.append([number(wanted, 1)]
+                       + ["%s ms (%s)" % (number(1e3 * found[0]), found[1]) if found else "not reached" for found in (us, them)]
+                       + [number(factor), number(factor / 8)])
+    at_equal = table(["RMS error", "himField", "LAMMPS", "times faster", "per charge"], summary)
+    return text + table(["program", "settings", "RMS error", "ms per field", "us per charge"], rows) + (
+        "\nAt equal error, interpolated between the settings on both sides of it:\n\n") + at_equal
 
 
 def overview(scenes):

@@ -40,6 +40,7 @@ def methods(cell, stretch):
         "truncation-3h": "fieldMethod directTruncation; nearCutoff %.12g;" % (3 * cell),
         "particleCell-3h": "fieldMethod hybridParticleCell; nearCutoff %.12g;" % (3 * cell),
         "pairwise": "fieldMethod pairwiseSum;",
+        "pairwise-images": "fieldMethod pairwiseSum; images yes;",
         "p3m-2h": "fieldMethod p3m; cloudCells 2;",
         "p3m-3h": "fieldMethod p3m; cloudCells 3; gather quartic; deferredCorrection yes;",
         "p3m-4h": "fieldMethod p3m; cloudCells 4; gather quartic; deferredCorrection yes;",

@@ -16,19 +16,21 @@ import meshes
 import particles
 import report
 import scenes
-from scenes import DIAMETER, Scene
+from scenes import CHARGE, DIAMETER, Scene
 
 HERE = Path(__file__).resolve().parent
 CORE = 0
 BOX_METHODS = ("him-diagonal", "him-3h", "himCell-adjacent", "truncation-3h", "particleCell-3h", "pairwise",
-               "p3m-2h", "p3m-3h", "p3m-4h", "p3m-6h")
-CURVED_METHODS = tuple(name for name in BOX_METHODS if name not in ("pairwise", "p3m-6h"))
+               "pairwise-images", "p3m-2h", "p3m-3h", "p3m-4h", "p3m-6h")
+CURVED_METHODS = tuple(name for name in BOX_METHODS if name not in ("pairwise", "pairwise-images", "p3m-6h"))
+DRUM_METHODS = (*CURVED_METHODS, "pairwise-images")
+SHORT = ("diluteMixed", "bedMixed", "bedMixedFine", "wallLayer", "sphere", "cylinder", "shakerSnapshot")
 GROWTH_METHODS = ("him-diagonal", "p3m-2h", "p3m-3h")
 
 
 def accuracy_scenes(size):
     """Scenes for error against time. `size`: short, default or full."""
-    wide, deep = {"short": (36, 20), "default": (84, 24), "full": (84, 24)}[size]
+    wide, deep = {"short": (30, 14), "default": (84, 24), "full": (84, 24)}[size]
     rounds = 3 if size == "short" else 7
     rng = np.random.default_rng(2022)
     cloud = particles.dilute(rng, wide)
@@ -44,7 +46,7 @@ def accuracy_scenes(size):
     def box(length, cell):
         return meshes.box(length, int(round(length / cell)), DIAMETER)
 
-    return [
+    scenes_of_all_sizes = [
         Scene("diluteMixed", "Dilute cloud, +-q, h = 2 d", *charged(cloud, "mixed"), 2, box(wide, 2), names=BOX_METHODS, rounds=rounds),
         Scene("diluteLike", "Dilute cloud, all +q, h = 2 d", *charged(cloud, "like"), 2, box(wide, 2), names=BOX_METHODS, rounds=rounds),
         Scene("bedMixed", "Dense bed, +-q, h = 2 d", *charged(heap, "mixed"), 2, box(deep, 2), names=BOX_METHODS, rounds=rounds),
@@ -52,13 +54,20 @@ def accuracy_scenes(size):
         Scene("bedLike", "Dense bed, all +q, h = 2 d", *charged(heap, "like"), 2, box(deep, 2), names=BOX_METHODS, rounds=rounds),
         Scene("wallLayer", "Layer on all six walls, +-q, h = 2 d", *charged(walls, "mixed"), 2, box(deep, 2), names=BOX_METHODS,
               rounds=rounds),
+        Scene("wallLayerLike", "Layer on all six walls, all +q, h = 2 d", *charged(walls, "like"), 2, box(deep, 2), names=BOX_METHODS,
+              rounds=rounds),
         Scene("polyhedra", "Polyhedral mesh of a box, +-q, h = 1.5 d", *charged(half, "mixed"), 1.5,
               gmsh=meshes.tetrahedra(18, 9, DIAMETER, rng), stretch=1.5, rounds=rounds),
         Scene("sphere", "Sphere, all +q, h = d", *charged(ball, "like"), 1, meshes.sphere(9, 1, DIAMETER), ball=9, stretch=1.5,
               names=CURVED_METHODS, rounds=rounds),
         Scene("cylinder", "Cylinder, +-q, h = d", *charged(drum, "mixed"), 1, meshes.cylinder(10, 20, 1, DIAMETER), stretch=1.5,
-              names=CURVED_METHODS, rounds=rounds),
+              names=DRUM_METHODS, rounds=rounds),
+        Scene("bedSnapshot", "State of triboFluidisedBed, h = 2.17 d", *particles.snapshot(HERE / "snapshots/bed.csv", 277e-6, CHARGE),
+              3 / 0.277 / 5, meshes.box(3 / 0.277, 5, DIAMETER, 12, 60), names=BOX_METHODS, rounds=rounds),
+        Scene("shakerSnapshot", "State of vibratoryShaker, h = 0.35 d", *particles.snapshot(HERE / "snapshots/shaker.csv", 12.7e-3, CHARGE),
+              4.5 / 12.7, meshes.cylinder(30 / 12.7, 60 / 12.7, 4.5 / 12.7, DIAMETER), stretch=1.5, names=DRUM_METHODS, rounds=rounds),
     ]
+    return [scene for scene in scenes_of_all_sizes if size != "short" or scene.name in SHORT]
 
 
 def growth_scenes(size):
@@ -136,10 +145,10 @@ def main(size):
         growth.append(scene)
     pairs = []
     if lammps.available():
-        for name, length in (("diluteMixed", {"short": 36}.get(size, 84)), ("bedMixedFine", {"short": 20}.get(size, 24))):
+        for name, length in (("diluteMixed", {"short": 30}.get(size, 84)), ("bedMixedFine", {"short": 14}.get(size, 24))):
             print("LAMMPS beside himField: %s" % name, flush=True)
             scene = next(s for s in compared if s.name == name)
-            pairs.append(beside_lammps(scene, length, *folders[name], rounds=2 if size == "short" else 5))
+            pairs.append(beside_lammps(scene, length, *folders[name], rounds=1 if size == "short" else 5))
     else:
         print("LAMMPS is not installed: left out")
     target = HERE / ("runs" if size == "short" else "doc")

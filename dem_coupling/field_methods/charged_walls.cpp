@@ -91,16 +91,13 @@ void ChargedWalls::takeFace(const std::vector<Vector3>& corners, std::int32_t ce
         }
         panels_.push_back({piece, piece.points(), share, face});
         for (int n = 0; n < count; ++n) {
-            ChargedPanel mirrored = piece;
+            std::array<Vector3, 4> corner = piece.corner;
             for (const std::int32_t plane : most[n].mirrors) {
-                if (plane < 0) {
-                    break;
-                }
-                mirrored.centre = planes[static_cast<std::size_t>(plane)].mirror(mirrored.centre);
-                for (Vector3& corner : mirrored.corner) {
-                    corner = planes[static_cast<std::size_t>(plane)].mirror(corner);
+                for (Vector3& place : corner) {
+                    place = plane < 0 ? place : planes[static_cast<std::size_t>(plane)].mirror(place);
                 }
             }
+            const ChargedPanel mirrored = panelWith(corner, piece.corners);
             panels_.push_back({mirrored, mirrored.points(), most[n].sign * share, face});
         }
     }

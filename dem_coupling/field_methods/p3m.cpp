@@ -5,6 +5,7 @@
 #include "dem_coupling/field_methods/shared_steps.hpp"
 #include "electrostatics/constants.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -257,7 +258,14 @@ void P3m::sumNear(ParticleField& result)
 /// Short-range parts of charges near baffles and re-entrant edges, for the targets that can be walked to from them.
 void P3m::addHiddenPairs()
 {
+    if (std::find(hides_.begin(), hides_.end(), true) == hides_.end()) {
+        return;
+    }
     const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
+    // A target that an image acts on is at most 2 R from its charge.
+    const double reach = 2 * radius_;
+    targetCells_.build(sources_.position, 0, sources_.targets, reach);
+    LinkedCells::Ranges near;
     for (Index row = 0; row < sources_.size(); ++row) {
         const auto r = static_cast<std::size_t>(row);
         if (!hides_[r]) {
@@ -275,12 +283,9 @@ void P3m::addHiddenPairs()
             sums_.potential[target] += coulombConstant * charge * cloud_.shortRangePotential(distance);
             ++sums_.pairs;
         };
-        for (Index target = 0; target < sources_.targets; ++target) {
-            const Index cell = sources_.cell[static_cast<std::size_t>(target)];
-            const bool near =
-                (sources_.position.row(target) - sources_.position.row(row)).square().sum() < radius_ * radius_ * 4;
-            if (!near || !around.reaches(cell)) {
-                continue;
+        const auto addAll = [&](Index target) {
+            if (!around.reaches(sources_.cell[static_cast<std::size_t>(target)])) {
+                return;
             }
             if (target != row) {
                 add(target, sources_.position.row(row).matrix().transpose(), sources_.charge[row]);
@@ -288,6 +293,15 @@ void P3m::addHiddenPairs()
             for (auto n = static_cast<std::size_t>(sources_.firstImage[r]);
                  n < static_cast<std::size_t>(sources_.firstImage[r + 1]); ++n) {
                 add(target, sources_.images[n].position, sources_.images[n].sign * sources_.charge[row]);
+            }
+        };
+        Box place;
+        place.extend(Vector3(sources_.position.row(row).matrix().transpose()));
+        targetCells_.rangesAround(place, near);
+        for (int range = 0; range < near.count; ++range) {
+            const RowRange& places = near.range[static_cast<std::size_t>(range)];
+            for (auto at = places.begin; at < places.end; ++at) {
+                addAll(targetCells_.order()[static_cast<std::size_t>(at)]);
             }
         }
     }

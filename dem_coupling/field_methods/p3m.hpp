@@ -63,6 +63,7 @@ private:
     CloudSources sources_;
     ChargedPoints points_;
     std::vector<bool> hides_;
+    LinkedCells targetCells_;
     DemParticles inCells_;  ///< the targets, for messages
     PairSumResult sums_;
     Scalars cellCharge_, cellPotential_, boundaryValue_, scratchCells_, scratchFaces_;

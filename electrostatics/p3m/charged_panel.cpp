@@ -13,6 +13,18 @@ namespace {
 /// A quadrangle whose fourth corner leaves the plane of the others by more than this share of its size is not flat.
 constexpr double flat = 1e-9;
 
+bool isFlatQuadrangle(const std::vector<Vector3>& polygon)
+{
+    if (polygon.size() != 4) {
+        return false;
+    }
+    const Vector3 normal = (polygon[2] - polygon[0]).cross(polygon[3] - polygon[1]);
+    const double size = std::sqrt(normal.norm());
+    return size > 0 && std::abs((polygon[1] - polygon[0]).dot(normal.normalized())) < flat * size;
+}
+
+}  // namespace
+
 ChargedPanel panelWith(const std::array<Vector3, 4>& corner, int corners)
 {
     ChargedPanel panel;
@@ -29,20 +41,14 @@ ChargedPanel panelWith(const std::array<Vector3, 4>& corner, int corners)
         panel.radius = std::max(panel.radius, here.norm());
     }
     panel.area = area.norm();
+    panel.normal = area / panel.area;
+    for (int n = 0; n < corners; ++n) {
+        const auto side = static_cast<std::size_t>(n);
+        panel.along[side] = (corner[static_cast<std::size_t>((n + 1) % corners)] - corner[side]).normalized();
+        panel.outward[side] = panel.along[side].cross(panel.normal);
+    }
     return panel;
 }
-
-bool isFlatQuadrangle(const std::vector<Vector3>& polygon)
-{
-    if (polygon.size() != 4) {
-        return false;
-    }
-    const Vector3 normal = (polygon[2] - polygon[0]).cross(polygon[3] - polygon[1]);
-    const double size = std::sqrt(normal.norm());
-    return size > 0 && std::abs((polygon[1] - polygon[0]).dot(normal.normalized())) < flat * size;
-}
-
-}  // namespace
 
 std::vector<ChargedPanel> panelsOf(const std::vector<Vector3>& polygon, double longest)
 {
@@ -100,35 +106,38 @@ std::vector<ChargedPanel::Point> ChargedPanel::points() const
 
 void ChargedPanel::addField(const Vector3& point, double factor, Vector3& field, double& potential) const
 {
-    const Vector3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
-    const double height = (point - corner[0]).dot(normal);
-    const double absHeight = std::abs(height);
-    double angle = 0;  // solid angle of the panel
+    std::array<Vector3, 4> to;
+    std::array<double, 4> distance;
+    for (std::size_t n = 0; n < 4; ++n) {
+        to[n] = corner[n] - point;
+        distance[n] = to[n].norm();
+    }
     double sum = 0;
     Vector3 inPlane = Vector3::Zero();
-    for (int n = 0; n < corners; ++n) {
-        const Vector3& from = corner[static_cast<std::size_t>(n)];
-        const Vector3& to = corner[static_cast<std::size_t>((n + 1) % corners)];
-        const Vector3 along = (to - from).normalized();
-        const Vector3 outward = along.cross(normal);
-        const double begin = (from - point).dot(along);
-        const double end = (to - point).dot(along);
-        const double distance = (from - point).dot(outward);  // of the edge, in the plane
-        const double rBegin = (from - point).norm();
-        const double rEnd = (to - point).norm();
-        const double toEdge = distance * distance + height * height;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(corners); ++n) {
+        const std::size_t next = n + 1 < static_cast<std::size_t>(corners) ? n + 1 : 0;
+        const double begin = to[n].dot(along[n]);
+        const double end = to[next].dot(along[n]);
         // Both forms are the same; this one loses no digits.
-        const double logarithm =
-            begin + end > 0 ? std::log((rEnd + end) / (rBegin + begin)) : std::log((rBegin - begin) / (rEnd - end));
-        const double edgeAngle = std::atan2(distance * end, toEdge + absHeight * rEnd)
-                                 - std::atan2(distance * begin, toEdge + absHeight * rBegin);
-        inPlane += logarithm * outward;
-        angle += edgeAngle;
-        sum += distance * logarithm;
+        const double logarithm = begin + end > 0 ? std::log((distance[next] + end) / (distance[n] + begin))
+                                                 : std::log((distance[n] - begin) / (distance[next] - end));
+        inPlane += logarithm * outward[n];
+        sum += to[n].dot(outward[n]) * logarithm;
     }
-    const double sign = height > 0 ? 1 : height < 0 ? -1 : 0;
-    field += factor / area * (inPlane + sign * angle * normal);
-    potential += factor / area * (sum - absHeight * angle);
+    // Half the solid angle, below pi for a flat panel, is the argument of the product of its triangles' numbers.
+    double real = 1, imaginary = 0;
+    for (std::size_t n = 1; n + 1 < static_cast<std::size_t>(corners); ++n) {
+        const double x = distance[0] * distance[n] * distance[n + 1] + to[0].dot(to[n]) * distance[n + 1]
+                         + to[n].dot(to[n + 1]) * distance[0] + to[n + 1].dot(to[0]) * distance[n];
+        const double y = -to[0].dot(to[n].cross(to[n + 1]));
+        const double before = real;
+        real = before * x - imaginary * y;
+        imaginary = before * y + imaginary * x;
+    }
+    const double height = -to[0].dot(normal);
+    const double angle = height == 0 ? 0 : 2 * std::atan2(imaginary, real);
+    field += factor / area * (inPlane + angle * normal);
+    potential += factor / area * (sum - height * angle);
 }
 
 }  // namespace him

@@ -12,13 +12,16 @@ namespace him {
 struct ChargedPanel {
     std::array<Vector3, 4> corner;  ///< [m], one after the other around it
     int corners = 0;                ///< 3 or 4
+    Vector3 normal;                 ///< unit, the corners go round it anticlockwise
+    std::array<Vector3, 4> along;   ///< unit, from each corner to the next one
+    std::array<Vector3, 4> outward; ///< unit, of the side from each corner to the next one
     Vector3 centre;                 ///< mean of the corners [m]
     double radius = 0;              ///< largest distance of a corner from the centre [m]
     double area = 0;                ///< [m2]
 
     /// Field [1/m2] and potential [1/m] at a point, to round-off (Wilton et al. 1984, IEEE Trans. Antennas Propag. 32(3),
     /// 276-281, eqs. 5 and 6). In the plane of the panel the normal field is the mean of both sides, zero; on an edge it is
-    /// not finite.
+    /// not finite. The solid angle is that of van Oosterom and Strackee (1983, IEEE Trans. Biomed. Eng. 30(2), 125-126).
     void addField(const Vector3& point, double factor, Vector3& field, double& potential) const;
 
     /// Gauss points, of equal charge together with their shares: 4 in a quadrangle, 3 in a triangle. Moments up to the second
@@ -29,6 +32,9 @@ struct ChargedPanel {
     };
     std::vector<Point> points() const;
 };
+
+/// The panel with these corners [m], of which a triangle has three.
+ChargedPanel panelWith(const std::array<Vector3, 4>& corner, int corners);
 
 /// A polygon cut into panels: flat quadrangles into pieces with sides of at most `longest` [m], other polygons into triangles
 /// around their centre.

@@ -121,6 +121,21 @@ TEST_P(HardScene, withoutAnyChargeHasNoFieldAndNoEnergy)
     }
 }
 
+TEST_P(HardScene, hasHalfTheFieldInAGasOfTwiceThePermittivityAndTheExternalFieldInFull)
+{
+    const DemParticles all = randomParticles(60, cube, d, 1e-12, Charges::random, 9);
+    FieldSettings settings = settingsOf(GetParam());
+    const Outcome once = outcomeOf(settings, all);
+    settings.permittivity = 2 * epsilon0;
+    settings.externalField = Vector3(1e4, -2e4, 3e4);
+    const Outcome twice = outcomeOf(settings, all);
+    std::map<int, Vector3> expected;
+    for (const auto& [tag, field] : once.field) {
+        expected[tag] = 0.5 * field + settings.externalField;
+    }
+    expectSame(twice.field, expected, 1e-10);
+}
+
 TEST_P(HardScene, ofChargesOverNineDecadesIsTheSumOfItsDecades)
 {
     const FieldSettings settings = settingsOf(GetParam());

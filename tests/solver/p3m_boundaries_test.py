@@ -106,6 +106,32 @@ class Boundaries(unittest.TestCase):
         for ranks in (2, 4):
             self.assertLess(difference(self.field(self.periodic(), some, ranks), fields), 1e-6)
 
+    def insulated(self, background, *options):
+        """A cube of charges of one sign without a conductor."""
+        coefficients = ("neutralisingBackground %s;\n coarse { fieldMethod p3m; cloudCells 2; }\n"
+                        "fine { fieldMethod p3m; cloudCells 3; gather quartic; deferredCorrection yes; }\n" % background)
+        conditions = {name: "type zeroGradient;" for name in ("bottom", "top", "sides")}
+        case = self.case(conditions=conditions, coefficients=coefficients)
+        dice = random.Random(7)
+        lines = ["%r,%r,%r,1e-9" % tuple(dice.uniform(0.004, 0.096) for _ in range(3)) for _ in range(400)]
+        (case.path / "particles.csv").write_text("x,y,z,q\n" + "\n".join(lines) + "\n")
+        return case, case.run("-particles", "particles.csv", *options, program="himField")
+
+    def test_a_net_charge_without_a_conductor_has_the_exact_field_over_a_uniform_background(self):
+        case, result = self.insulated("yes", "-compare", "-methods", "(coarse fine)")
+        self.assertEqual(result.code, 0, result.text)
+        with open(case.path / "postProcessing/himField/compare.csv", newline="") as file:
+            rows = {row["name"]: row for row in csv.DictReader(file)}
+        print({name: row["rms_error"] for name, row in rows.items()}, rows["coarse"]["reference"])
+        self.assertIn("exact", rows["coarse"]["reference"])
+        self.assertLess(float(rows["coarse"]["rms_error"]), 0.04)
+        self.assertLess(float(rows["fine"]["rms_error"]), 0.010)
+
+    def test_a_net_charge_without_a_conductor_is_refused_without_the_background(self):
+        _, result = self.insulated("no", "-method", "coarse")
+        self.assertNotEqual(result.code, 0)
+        self.assertIn("neutralisingBackground yes", result.text)
+
     def test_stretched_cells_one_to_ten_keep_the_error_of_the_largest(self):
         graded = [("simpleGrading (1 1 1)", "simpleGrading (10 1 1)")]
         some = charges(40, seed=5)

@@ -107,6 +107,24 @@ class PotentialOfTheMesh(unittest.TestCase):
         self.assertEqual(once, 1)
         self.assertNotEqual(other, field)
 
+    def test_the_field_of_clouds_is_off_by_the_share_of_charge_that_may_move_unseen(self):
+        def run(entry):
+            with tempfile.TemporaryDirectory() as folder:
+                case = TinyCase(folder, "p3m")
+                case.replace("system/controlDict", "endTime 2e-3;", "endTime 2e-2;")
+                case.replace("system/fvSolution", "HIM {", "HIM { %s" % entry)
+                result = case.run()
+                self.assertEqual(result.code, 0, result.text)
+                return result.text.count("Solving for meshPotential"), [row["largestField"] for row in case.charge_table()[1]]
+
+        always, fields = run("")
+        for share in (0.2, 0.05):
+            solves, late = run("resolveAbove %g;" % share)
+            worst = max(abs(a / b - 1) for a, b in zip(late, fields))
+            print("resolveAbove", share, solves, "of", always, "solves, largest field off by", worst)
+            self.assertLess(solves, 0.6 * always)
+            self.assertLess(worst, share)
+
     def tilted_cells(self, correctors):
         """Largest deviation [V] from the linear potential between plates at 0 and 500 V, on two blocks that share a tilted
         face, so that most faces are not orthogonal to the line between their cells."""
