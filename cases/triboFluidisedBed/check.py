@@ -91,6 +91,12 @@ def main():
             if worst > 1e-9:
                 ok = False
                 print(f"    the books are off by {worst:.1e}: FAILED")
+        gas = read(f"runs/{size}/{run.name}", "gas/*/gas.dat")
+        steps = (gas["Time"][-1] - gas["Time"][0])/np.mean(gas["deltaT"])
+        worst = np.max(gas["mismatch"])
+        print(f"    momentum of gas and particles over {steps:.0f} gas steps: off by {worst:.1e} of all that was exchanged: "
+              f"{'ok' if worst < 1e-12 else 'FAILED'}")
+        ok = ok and worst < 1e-12
     os.makedirs("doc", exist_ok=True)
     draw(size, runs, weight)
     return 0 if ok else 1
