@@ -13,8 +13,9 @@ namespace {
 /// Panels are no longer than this share of the cloud radius.
 constexpr double longestPanel = 0.5;
 
-/// A panel's points serve from this many of its radii on: their field is within 0.5 % of the panel's there.
-constexpr double nearRadii = 2.5;
+/// A panel's points serve from this many of its radii on: their field is within 1.5 % of the panel's there, which does not show in
+/// the errors of clouds of two and three cells.
+constexpr double nearRadii = 2.0;
 
 }  // namespace
 

@@ -107,7 +107,7 @@ TEST(ChargedPanel, isTheSameHoweverItIsCut)
     EXPECT_EQ(panelsOf(pentagon, 9).size(), 5u);
 }
 
-TEST(ChargedPanel, isServedByItsPointsFromTwoAndAHalfRadiiOn)
+TEST(ChargedPanel, isServedByItsPointsFromTwoRadiiOn)
 {
     const std::vector<std::vector<Vector3>> flat{square, kite, {{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}}};
     for (const auto& polygon : flat) {
@@ -115,7 +115,7 @@ TEST(ChargedPanel, isServedByItsPointsFromTwoAndAHalfRadiiOn)
         ASSERT_EQ(panels.size() == 1, polygon.size() == 4);
         double worst = 0;
         for (const Vector3& direction : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(1, 1, 0), Vector3(1, 0.3, 1)}) {
-            const Vector3 place = panels[0].centre + 2.5 * panels[0].radius * direction.normalized();
+            const Vector3 place = panels[0].centre + 2 * panels[0].radius * direction.normalized();
             Field exact, points;
             panels[0].addField(place, 1, exact.field, exact.potential);
             for (const ChargedPanel::Point& point : panels[0].points()) {
@@ -124,8 +124,8 @@ TEST(ChargedPanel, isServedByItsPointsFromTwoAndAHalfRadiiOn)
             }
             worst = std::max(worst, (points.field - exact.field).norm() / exact.field.norm());
         }
-        std::printf("error of the points at 2.5 radii: %.2g\n", worst);
-        EXPECT_LT(worst, 0.005);
+        std::printf("error of the points at two radii: %.2g\n", worst);
+        EXPECT_LT(worst, 0.015);
     }
 }
 
