@@ -89,9 +89,10 @@ void gasFlow::solve(const GasSources& sources)
     const label corrections = controls.lookupOrDefault<label>("nCorrectors", 2);
     const double deltaT = mesh_.time().deltaTValue();
 
-    alpha_.storeOldTimes();
-    U_.storeOldTimes();
-    phi_.storeOldTimes();
+    // Not storeOldTimes(), which keeps nothing the first time: the void fraction of the step before would be that of this one.
+    alpha_.oldTime();
+    U_.oldTime();
+    phi_.oldTime();
     setVoidFraction(sources.voidFraction);
     setDrag(sources, deltaT);
     for (label iteration = 0; iteration < outer; ++iteration) {
