@@ -24,7 +24,7 @@ class SpeedAgainstError(unittest.TestCase):
             self.assertTrue((root / "speedAgainstError/runs/speedAgainstError.png").exists())
         glance = report[report.index("| scene |"):].split("\n\n")[0].splitlines()
         names = [cell.strip() for cell in glance[0].split("|")][2:-1]
-        self.assertEqual(len(glance) - 2, 9)
+        self.assertEqual(len(glance) - 2, 7)
         for line in glance[2:]:
             cells = [cell.strip() for cell in line.split("|")][1:-1]
             errors = {name: float(cell.split(" at ")[0]) for name, cell in zip(names, cells[1:])}
