@@ -25,6 +25,7 @@ BOX_METHODS = ("him-diagonal", "him-3h", "himCell-adjacent", "truncation-3h", "p
 CURVED_METHODS = tuple(name for name in BOX_METHODS if name not in ("pairwise", "pairwise-images", "p3m-6h"))
 DRUM_METHODS = (*CURVED_METHODS, "pairwise-images")
 SHORT = ("diluteMixed", "bedMixed", "bedMixedFine", "wallLayer", "polyhedra", "sphere", "cylinder")
+MOST_MIRRORED = 3000  # particles for `pairwise-images`: each has 26 images, and every pair of all is summed
 MOST_DILUTE = 100000  # a million would take 6.5 million cells, and OpenFOAM's mesh alone about 1 kB for each
 GROWTH_METHODS = ("him-diagonal", "p3m-2h", "p3m-3h")
 
@@ -90,6 +91,8 @@ def growth_scenes(size):
 
 def run(scene, root):
     print("    %s: %d particles" % (scene.name, len(scene.position)), flush=True)
+    if len(scene.position) > MOST_MIRRORED:
+        scene.names = tuple(name for name in scene.names if name != "pairwise-images")
     folder, names = scenes.set_up(scene, root)
     scene.rows = scenes.compare(folder, names, scene.rounds, CORE)
     return folder, names
@@ -154,7 +157,7 @@ def main(size):
         for name, length in (("diluteMixed", {"short": 30}.get(size, 84)), ("bedMixedFine", {"short": 14}.get(size, 24))):
             print("LAMMPS beside himField: %s" % name, flush=True)
             scene = next(s for s in compared if s.name == name)
-            pairs.append(beside_lammps(scene, length, *folders[name], rounds=1 if size == "short" else 5))
+            pairs.append(beside_lammps(scene, length, *folders[name], rounds=1 if size == "short" else 3))
     else:
         print("LAMMPS is not installed: left out")
     target = HERE / ("runs" if size == "short" else "doc")
