@@ -16,6 +16,10 @@ constexpr double sameplane = 1e-5;
 /// A mesh with more planes than this is taken as curved.
 constexpr std::size_t mostPlanes = 32;
 
+/// Planes whose normals have a larger product than this, though they differ, are facets of a curved wall: the facets turn by less
+/// than 60 degrees, and images in each of them are none of the wall.
+constexpr double facets = 0.5 + sameplane;
+
 struct plane {
     Foam::vector normal;  ///< unit, out of the mesh
     Foam::point point;
@@ -87,6 +91,18 @@ std::vector<plane> allPlanes(const std::vector<plane>& own, double size)
     return planes;
 }
 
+bool curved(const std::vector<plane>& planes)
+{
+    for (const plane& a : planes) {
+        for (const plane& b : planes) {
+            if ((a.normal & b.normal) > facets && Foam::mag(a.normal - b.normal) > sameplane) {
+                return true;
+            }
+        }
+    }
+    return planes.size() > mostPlanes;
+}
+
 /// Whether no point of the mesh lies behind a plane. Collective.
 bool convex(const foamPoissonMesh& poisson, const std::vector<plane>& planes, double size)
 {
@@ -114,7 +130,7 @@ meshWalls findMeshWalls(const foamPoissonMesh& mesh)
     for (const Foam::string& text : refusals) {
         walls.refusal = walls.refusal.empty() ? std::string(text) : walls.refusal;
     }
-    if (planes.size() > mostPlanes) {
+    if (curved(planes)) {
         walls.refusal = "the walls are curved";
     } else if (!convex(mesh, planes, size)) {
         walls.refusal = "the walls are not convex";
