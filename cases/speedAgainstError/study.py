@@ -98,14 +98,11 @@ def run(scene, root):
     return folder, names
 
 
-def beside_lammps(scene, length, folder, names, rounds):
+def beside_lammps(scene, length, cutoffs, folder, names, rounds):
     """LAMMPS and himField in turns on one core; rows like those of himField with the medians over the turns."""
     names = [name for name in names if name.startswith(("him-diagonal", "p3m"))]
     lammps.write_images(folder / "data.images", scene.position, scene.charge, length)
     exact = lammps.run(folder, "data.images", scene.charge, 9 if length > 30 else 5, 1e-6, 7, CORE)[2]
-    cutoffs = (5, 6, 7, 8, 10) if length > 30 else (1.5, 2, 2.5, 3)
-    if rounds == 1:  # short
-        cutoffs = cutoffs[1:3]
     settings = [(cutoff, accuracy) for accuracy in (1e-1, 1e-2, 1e-3) for cutoff in cutoffs]
     ours, theirs = {name: [] for name in names}, {setting: [] for setting in settings}
     errors = {}
@@ -154,10 +151,12 @@ def main(size):
         growth.append(scene)
     pairs = []
     if lammps.available():
-        for name, length in (("diluteMixed", {"short": 30}.get(size, 84)), ("bedMixedFine", {"short": 14}.get(size, 24))):
+        wide, deep, rounds = (30, 14, 1) if size == "short" else (84, 24, 3)
+        for name, length, cutoffs in (("diluteMixed", wide, (5, 6, 7, 8, 10)), ("bedMixedFine", deep, (1.5, 2, 2.5, 3))):
             print("LAMMPS beside himField: %s" % name, flush=True)
             scene = next(s for s in compared if s.name == name)
-            pairs.append(beside_lammps(scene, length, *folders[name], rounds=1 if size == "short" else 3))
+            cutoffs = cutoffs[1:3] if size == "short" else cutoffs
+            pairs.append(beside_lammps(scene, length, cutoffs, *folders[name], rounds=rounds))
     else:
         print("LAMMPS is not installed: left out")
     target = HERE / ("runs" if size == "short" else "doc")

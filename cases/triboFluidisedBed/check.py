@@ -12,15 +12,15 @@ import numpy as np
 
 
 def read(folder, pattern):
-    """The columns of all series of a run, in order of time."""
+    """The columns of all series of a run, in order of time; where a run was continued, the later one holds."""
     rows, names = [], []
     for path in sorted(glob.glob(f"{folder}/postProcessing/{pattern}"), key=lambda p: float(p.split("/")[-2])):
         with open(path) as file:
             lines = file.read().splitlines()
         names = [line for line in lines if line.startswith("# Time")][0][2:].split()
-        rows += [[float(word) for word in line.split()] for line in lines if not line.startswith("#")]
-    order = np.argsort([row[0] for row in rows], kind="stable")
-    table = np.array(rows)[order]
+        new = [[float(word) for word in line.split()] for line in lines if not line.startswith("#")]
+        rows = [row for row in rows if row[0] < float(path.split("/")[-2])] + new
+    table = np.array(rows)
     return {name: table[:, n] for n, name in enumerate(names)}
 
 

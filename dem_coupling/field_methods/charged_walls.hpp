@@ -19,7 +19,7 @@ public:
     /// @param cloudRadius  R [m]
     ChargedWalls(const PoissonMesh& mesh, MeshHalo& halo, SurroundingsTable& table, double cloudRadius);
 
-    /// Whether this rank or one near it has such a wall.
+    /// Whether neither this rank nor one near it has such a wall.
     bool none() const { return faceCell_.empty(); }
 
     /// Takes the present charge of the faces. Neighbours talk.
@@ -28,10 +28,13 @@ public:
     /// Appends the points of all charged faces as sources that are no targets.
     void appendTo(CloudSources& sources) const;
 
-    /// Adds to field [V/m] and potential [V] of the targets the exact field of the panels near them less that of their points.
+    /// Adds to field [V/m] and potential [V], one row per target, the exact field of the panels near the targets less the Coulomb
+    /// field of the panels' points. Baffles do not hide panels.
+    /// @param permittivity  eps [F/m]
     void addNearPanels(const CloudSources& sources, double permittivity, Points& field, Scalars& potential) const;
 
 private:
+    /// Points, panels and images of the next face.
     void takeFace(const std::vector<Vector3>& corners, std::int32_t cell, SurroundingsTable& table, double cloudRadius);
 
     const PoissonMesh& mesh_;

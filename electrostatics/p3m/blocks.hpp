@@ -7,7 +7,7 @@
 #include <cstring>
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2,fma", "default")))
+#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define HIM_CLONES
 #endif

@@ -53,6 +53,21 @@ class HimField(unittest.TestCase):
         self.assertEqual(result.code, 1, result.text)
         return flat
 
+    def test_facets_of_a_curved_wall_are_no_planes_to_mirror_at(self):
+        # A prism whose floor and ceiling are bent in the middle, by 44 degrees.
+        self.case.write("system/blockMeshDict", """scale 0.1;
+            vertices ((0 0 0.2) (0.5 0 0) (0.5 1 0) (0 1 0.2) (0 0 0.8) (0.5 0 1) (0.5 1 1) (0 1 0.8) (1 0 0.2) (1 1 0.2) (1 0 0.8) (1 1 0.8));
+            blocks (hex (0 1 2 3 4 5 6 7) (5 10 10) simpleGrading (1 1 1) hex (1 8 9 2 5 10 11 6) (5 10 10) simpleGrading (1 1 1));
+            boundary (
+                bottom { type wall; faces ((0 3 2 1) (1 2 9 8)); } top { type wall; faces ((4 5 6 7) (5 10 11 6)); }
+                sides { type wall; faces ((0 4 7 3) (8 9 11 10) (0 1 5 4) (1 8 10 5) (3 7 6 2) (2 6 11 9)); } );""")
+        self.case.tool("blockMesh")
+        self.case.replace(ELECTROSTATIC, "relativePermittivity 1;",
+                          "relativePermittivity 1; mirrored { fieldMethod pairwiseSum; images yes; }")
+        (self.case.path / "in.csv").write_text("x,y,z,q\n0.04,0.05,0.05,1e-9\n0.06,0.05,0.04,-1e-9\n")
+        result = self.case.run("-particles", "in.csv", "-compare", "-methods", "(mirrored)", program="himField")
+        self.assertIn("no images: the walls are curved", " ".join(result.text.split()))
+
     def assert_same(self, left, right, tolerance):
         scale = math.sqrt(sum(e * e for row in left for e in row) / len(left))
         self.assertEqual(len(left), len(right))
