@@ -15,9 +15,6 @@ namespace {
 /// Cells per point at most; where the reach asks for more, cells grow until they fit.
 constexpr double cellsPerPoint = 4.0;
 
-/// Points in one reach of a row of cells.
-constexpr double pointsPerReachAlong = 8.0;
-
 Box boundsOf(const Points& position, Index firstRow, Index rows)
 {
     Box bounds;
@@ -33,15 +30,15 @@ Box boundsOf(const Points& position, Index firstRow, Index rows)
 
 }  // namespace
 
-int LinkedCells::cellsPerReach(const Vector3& extent, Index points) const
+int LinkedCells::cellsPerReach(const Vector3& extent, Index points, double pointsPerReach) const
 {
     // As many points in a row of cells as the reach is long, wherever points are evenly spread.
     const double reaches = (extent.array() / reach_).max(1.0).prod();
-    const double fitting = std::sqrt(static_cast<double>(points) / (reaches * pointsPerReachAlong));
+    const double fitting = std::sqrt(static_cast<double>(points) / (reaches * pointsPerReach));
     return static_cast<int>(std::round(std::min(std::max(fitting, 1.0), double(mostCellsPerReach))));
 }
 
-void LinkedCells::layOut(const Box& bounds, double reach, Index points)
+void LinkedCells::layOut(const Box& bounds, double reach, Index points, double pointsPerReach)
 {
     const double largest = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
     margin_ = 1e-12 * reach + 32.0 * std::numeric_limits<double>::epsilon() * largest;
@@ -49,7 +46,7 @@ void LinkedCells::layOut(const Box& bounds, double reach, Index points)
     origin_ = bounds.lower;
 
     const Vector3 extent = bounds.size();
-    const double across = reach_ / cellsPerReach(extent, points);
+    const double across = reach_ / cellsPerReach(extent, points, pointsPerReach);
     const Vector3 finest(reach_ / cellsPerReachAlong, across, across);
     const double allowed = cellsPerPoint * static_cast<double>(points);
     double growth = 1.0;
@@ -86,7 +83,7 @@ double LinkedCells::distanceToSlab(int axis, Index slab, const Box& box) const
     return std::max({0.0, lower - box.upper[axis], box.lower[axis] - (lower + cellSize_[axis])});
 }
 
-void LinkedCells::build(const Points& position, Index firstRow, Index rows, double reach)
+void LinkedCells::build(const Points& position, Index firstRow, Index rows, double reach, double pointsPerReach)
 {
     if (firstRow + rows >= std::numeric_limits<std::int32_t>::max() / static_cast<Index>(cellsPerPoint)) {
         throw std::length_error("more points on one rank than 32-bit linked cells can hold");
@@ -96,7 +93,7 @@ void LinkedCells::build(const Points& position, Index firstRow, Index rows, doub
     if (rows == 0) {
         return;
     }
-    layOut(boundsOf(position, firstRow, rows), reach, rows);
+    layOut(boundsOf(position, firstRow, rows), reach, rows, pointsPerReach);
 
     cellStart_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2] + 1), 0);
     for (Index i = 0; i < rows; ++i) {

@@ -25,12 +25,22 @@ public:
     struct Ranges {
         std::array<RowRange, rowsAcross * rowsAcross + 1> range;
         int count = 0;
+
+        Index places() const
+        {
+            Index sum = 0;
+            for (int n = 0; n < count; ++n) {
+                sum += range[static_cast<std::size_t>(n)].end - range[static_cast<std::size_t>(n)].begin;
+            }
+            return sum;
+        }
     };
 
     /// Sorts `rows` points from the row `firstRow` on. Throws std::domain_error naming the first row whose position is
     /// not finite.
-    /// @param reach  [m] distance up to which the ranges below are complete
-    void build(const Points& position, Index firstRow, Index rows, double reach);
+    /// @param reach           [m] distance up to which the ranges below are complete
+    /// @param pointsPerReach  wanted in one reach of a row of cells, where points are evenly spread
+    void build(const Points& position, Index firstRow, Index rows, double reach, double pointsPerReach = 8.0);
 
     Index size() const { return static_cast<Index>(order_.size()); }
     /// Row of the input that stands at each place.
@@ -46,8 +56,8 @@ public:
     void rangesFrom(Index firstPlace, const Box& box, Ranges& out) const;
 
 private:
-    int cellsPerReach(const Vector3& extent, Index points) const;
-    void layOut(const Box& bounds, double reach, Index points);
+    int cellsPerReach(const Vector3& extent, Index points, double pointsPerReach) const;
+    void layOut(const Box& bounds, double reach, Index points, double pointsPerReach);
     Index cellAlong(int axis, double coordinate) const;
     double distanceToSlab(int axis, Index slab, const Box& box) const;
     void collect(const Box& box, Index firstSlab, Index firstPlace, Ranges& out) const;

@@ -48,7 +48,9 @@ void requireMatching(const ChargedPoints& points, bool withCellCentres)
     }
 }
 
-/// Targets that are summed together may lie apart by this share of the cutoff.
+/// Points in one reach of a row of linked cells, and how far apart targets may lie that are summed together, as a share of
+/// the cutoff.
+constexpr double pointsPerReach = 8.0;
 constexpr double blockLength = 0.35;
 
 }  // namespace
@@ -62,12 +64,12 @@ NearField::NearField(double cutoff, double permittivity, const PairKernels& kern
     requirePositive("permittivity", permittivity);
 }
 
-void NearField::sort(const ChargedPoints& points, bool withCellCentres)
+void NearField::sort(const ChargedPoints& points, bool withCellCentres, double pointsPerReach)
 {
     requireMatching(points, withCellCentres);
     const Index rows = points.position.rows();
-    targets_.build(points.position, 0, points.targets, cutoff_);
-    others_.build(points.position, points.targets, rows - points.targets, cutoff_);
+    targets_.build(points.position, 0, points.targets, cutoff_, pointsPerReach);
+    others_.build(points.position, points.targets, rows - points.targets, cutoff_, pointsPerReach);
 
     for (Scalars* values : {&x_, &y_, &z_, &q_, &fieldX_, &fieldY_, &fieldZ_, &sumOfPotential_}) {
         reserveRows(*values, rows);
@@ -104,13 +106,13 @@ PairLimits NearField::limits() const
     return {squared, sameCellShare * sameCellShare * squared, 1.0 / squared, {}, {}};
 }
 
-NearField::TargetBlock NearField::blockFrom(Index first, Index end) const
+NearField::TargetBlock NearField::blockFrom(Index first, Index end, int most, double length) const
 {
     TargetBlock block{first, 0, Box()};
-    for (Index place = first; place < std::min<Index>(end, first + mostTargets); ++place) {
+    for (Index place = first; place < std::min<Index>(end, first + most); ++place) {
         Box grown = block.box;
         grown.extend({x_[place], y_[place], z_[place]});
-        if (block.count > 0 && grown.upper.x() - grown.lower.x() > blockLength * cutoff_) {
+        if (block.count > 0 && grown.upper.x() - grown.lower.x() > length * cutoff_) {
             break;
         }
         block.box = grown;
@@ -135,7 +137,7 @@ void NearField::sumAtTargets(const ChargedPoints& points, const PairKernels::Law
     for (Index row = 0; row < targets_.rowCount(); ++row) {
         const Index end = targets_.rowBegin(row + 1);
         for (Index first = targets_.rowBegin(row); first < end;) {
-            const TargetBlock block = blockFrom(first, end);
+            const TargetBlock block = blockFrom(first, end, mostTargets, blockLength);
             const PointArrays blockPoints = sources.from(first);
             const SumArrays blockSums = sums.from(first);
             // Every pair of targets once, for both, first those inside the block; the other sources act one-sided.
@@ -156,10 +158,7 @@ void NearField::sumAtTargets(const ChargedPoints& points, const PairKernels::Law
                 count += single;
             }
             if (count.coincident) {
-                for (Index place = first; place < first + block.count; ++place) {
-                    const Index target = targets_.order()[place];
-                    refuseSharedPosition(points.position, target, points.position, target);
-                }
+                refuseCoincidence(points, block);
             }
             first += block.count;
         }
@@ -176,31 +175,44 @@ void NearField::sumAtTargets(const ChargedPoints& points, const PairKernels::Law
     }
 }
 
+void NearField::refuseCoincidence(const ChargedPoints& points, const TargetBlock& block) const
+{
+    for (Index place = block.first; place < block.first + block.count; ++place) {
+        const Index target = targets_.order()[place];
+        refuseSharedPosition(points.position, target, points.position, target);
+    }
+}
+
 void NearField::coulomb(const ChargedPoints& points, PairSumResult& result)
 {
-    sort(points, false);
+    sort(points, false, pointsPerReach);
     sumAtTargets(points, kernels_.coulomb, limits(), result);
 }
 
 void NearField::coulombWithoutDoubleCount(const ChargedPoints& points, PairSumResult& result)
 {
-    sort(points, true);
+    sort(points, true, pointsPerReach);
     sumAtTargets(points, kernels_.withoutDoubleCount, limits(), result);
 }
 
-void NearField::screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result)
+void NearField::screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result,
+                         NearPrecision precision)
 {
     if (cloud.radius() != cutoff_) {
         std::ostringstream message;
         message << "the cloud radius must be the near cutoff, " << cutoff_ << " m, found " << cloud.radius() << " m";
         throw std::invalid_argument(message.str());
     }
+    if (precision == NearPrecision::singlePrecision) {
+        screenedInSingle(points, cloud, result);
+        return;
+    }
     const ChargeCloud::Coefficients& coefficients = cloud.coefficients();
     PairLimits ofCloud = limits();
     ofCloud.inverseSquaredRadius = coefficients.inverseSquaredRadius;
     std::copy(coefficients.potential.begin(), coefficients.potential.end(), ofCloud.cloudPotential);
     std::copy(coefficients.field.begin(), coefficients.field.end(), ofCloud.cloudField);
-    sort(points, false);
+    sort(points, false, pointsPerReach);
     sumAtTargets(points, kernels_.screened[cloud.exponent() - 1], ofCloud, result);
 }
 

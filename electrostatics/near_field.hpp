@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/gathered_rows.hpp"
 #include "electrostatics/linked_cells.hpp"
 #include "electrostatics/p3m/cloud.hpp"
 #include "electrostatics/pair_kernels.hpp"
@@ -19,6 +20,10 @@ struct ChargedPoints {
     Points cellCentre;  ///< [m], centre of the mesh cell that holds the point; only for the double-count correction
     Index targets = 0;
 };
+
+/// Arithmetic of a near sum. In single precision positions are still compared in double; only separations and sums are rounded,
+/// to 24 bits, and twice as many pairs are computed at once.
+enum class NearPrecision { doublePrecision, singlePrecision };
 
 /// Field [V/m] and potential [V] at the targets, own charge excluded.
 struct PairSumResult {
@@ -55,23 +60,27 @@ public:
     /// The short-range part of charges whose cloud the mesh carries (p3m): E_i = sum q_k (x_i - x_k) (1/r^3 - F(r)) and
     /// V_i = sum q_k (1/r - psi(r)) over r <= R, each times 1/(4 pi eps). Nothing is left of a pair at R, so the sum is
     /// exact, not truncated. Throws std::domain_error naming two rows that share a position.
+    /// Single precision errs by less than 1e-6 of the summed magnitudes; forces of a pair are opposite to as much.
     /// @param cloud  its radius R must be the cutoff; std::invalid_argument otherwise
-    void screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result);
+    void screened(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result,
+                  NearPrecision precision = NearPrecision::doublePrecision);
 
     double cutoff() const { return cutoff_; }
 
 private:
-    void sort(const ChargedPoints& points, bool withCellCentres);
+    void sort(const ChargedPoints& points, bool withCellCentres, double pointsPerReach);
     /// Consecutive targets of one row of linked cells that are summed together.
     struct TargetBlock {
         Index first;
         int count;
         Box box;
     };
-    TargetBlock blockFrom(Index first, Index end) const;
+    TargetBlock blockFrom(Index first, Index end, int most, double length) const;
     PairLimits limits() const;
     void sumAtTargets(const ChargedPoints& points, const PairKernels::Law& law, const PairLimits& limits,
                       PairSumResult& result);
+    void screenedInSingle(const ChargedPoints& points, const ChargeCloud& cloud, PairSumResult& result);
+    void refuseCoincidence(const ChargedPoints& points, const TargetBlock& block) const;
 
     const PairKernels& kernels_;
     double cutoff_;
@@ -81,6 +90,8 @@ private:
     LinkedCells targets_, others_;
     Scalars x_, y_, z_, q_, cellX_, cellY_, cellZ_;
     Scalars fieldX_, fieldY_, fieldZ_, sumOfPotential_;  ///< without 1/(4 pi eps)
+    SingleRows single_;
+    GatheredRows gathered_;
 };
 
 /// Field and potential at `targets` of all `sources` (R29, method PS), or of those within `cutoff` [m], added to what `field` and

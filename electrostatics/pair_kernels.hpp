@@ -19,6 +19,8 @@ constexpr double largestCoordinate = 1e50;
 /// last row of every array, readable and finite.
 constexpr int mostLanes = 8;
 constexpr std::ptrdiff_t sourcePadding = mostLanes - 1;
+/// In single precision as many rows without charge, far from all others, must follow the last row of every range.
+constexpr std::ptrdiff_t singlePadding = 2 * mostLanes - 1;
 
 /// Targets that a kernel takes at once, so that every source is loaded once for all of them.
 constexpr int mostTargets = 4;
@@ -64,6 +66,28 @@ struct SumArrays {
     SumArrays from(std::ptrdiff_t row) const { return {x + row, y + row, z + row, potential + row}; }
 };
 
+/// Gathered points are closer than this times the cutoff only at one position.
+constexpr float smallestSingleDistance = 1e-12F;
+
+/// Points around a place, gathered for the kernels in single precision, in units of the cutoff and of the largest charge, and
+/// where their sums are added.
+struct GatheredPoints {
+    const float* x;
+    const float* y;
+    const float* z;
+    const float* q;
+    float* fieldX;
+    float* fieldY;
+    float* fieldZ;
+    float* potential;
+
+    /// The same arrays from a later row on.
+    GatheredPoints from(std::ptrdiff_t row) const
+    {
+        return {x + row, y + row, z + row, q + row, fieldX + row, fieldY + row, fieldZ + row, potential + row};
+    }
+};
+
 /// Which pairs count, and what the screened kernels take away.
 struct PairLimits {
     double cutoffSquared;    ///< [m2], inclusive; the squared cloud radius for the screened kernels
@@ -99,11 +123,19 @@ struct PairKernels {
         Single single;
         Mutual mutual;
     };
+    /// In single precision: between the first rows of `targets` and the rows [begin, end) of `points`, which padding follows.
+    using Gathered = PairCount (*)(const GatheredPoints& targets, int targetCount, const GatheredPoints& points,
+                                   std::ptrdiff_t begin, std::ptrdiff_t end, const PairLimits& limits);
+    struct SingleLaw {
+        Gathered single;
+        Gathered mutual;
+    };
 
     const char* instructionSet;
     Law coulomb;             ///< R29
     Law withoutDoubleCount;  ///< R29 less the field between the cell centres (R31) where these differ; no potential
     Law screened[2];         ///< q d (1/r^3 - F), q (1/r - psi) for the cloud exponents 1 and 2
+    SingleLaw screenedInSingle[2];
 };
 
 /// The kernels that this machine can run, the fastest first. Pairs at the cutoff are decided alike by all of them.

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Loops of p3m that the compiler vectorises: one binary serves every x86-64 processor, and the loader picks the widest version
-// that the machine has. Four doubles at a time: a wider vector would be taken through memory on machines without AVX-512.
+// Loops of p3m take four doubles at a time: a wider vector would be taken through memory on machines without AVX-512.
+
+#include "electrostatics/processor_clones.hpp"
 
 #include <cstring>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define HIM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define HIM_CLONES
-#endif
 
 namespace him {
 namespace {

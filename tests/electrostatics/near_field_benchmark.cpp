@@ -77,10 +77,10 @@ void coulombWithoutDoubleCount(benchmark::State& state)
     });
 }
 
-template <int exponent> void screened(benchmark::State& state)
+template <int exponent, NearPrecision precision> void screened(benchmark::State& state)
 {
     timeNearSum(state, [](NearField& near, const ChargedPoints& points, PairSumResult& result) {
-        near.screened(points, ChargeCloud(near.cutoff(), exponent), result);
+        near.screened(points, ChargeCloud(near.cutoff(), exponent), result, precision);
     });
 }
 
@@ -108,8 +108,10 @@ void nearArguments(benchmark::internal::Benchmark* benchmark)
 
 BENCHMARK(coulomb)->Apply(nearArguments);
 BENCHMARK(coulombWithoutDoubleCount)->Apply(nearArguments);
-BENCHMARK(screened<1>)->Apply(nearArguments);
-BENCHMARK(screened<2>)->Apply(nearArguments);
+BENCHMARK(screened<1, NearPrecision::doublePrecision>)->Apply(nearArguments);
+BENCHMARK(screened<2, NearPrecision::doublePrecision>)->Apply(nearArguments);
+BENCHMARK(screened<1, NearPrecision::singlePrecision>)->Apply(nearArguments);
+BENCHMARK(screened<2, NearPrecision::singlePrecision>)->Apply(nearArguments);
 BENCHMARK(allPairs)->ArgName("points")->Arg(10000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

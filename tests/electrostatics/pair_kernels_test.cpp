@@ -49,6 +49,55 @@ TEST_P(InstructionSet, equalsTheDoubleLoop)
     }
 }
 
+TEST_P(InstructionSet, equalsTheDoubleLoopToSinglePrecision)
+{
+    // Far from the origin as well: positions are not rounded.
+    for (const double offset : {0.0, 1000.0}) {
+        for (const double cutoff : {0.05, 0.2, 0.9}) {
+            for (const Index targets : {0, 1, 5, 200, 500}) {
+                ChargedPoints points = randomPoints(500, 1.0, 0.8, 1.1, 64);
+                points.position += offset;
+                points.targets = targets;
+                for (const int exponent : {1, 2}) {
+                    const ChargeCloud cloud(cutoff, exponent);
+                    const BruteForce expected = bruteForceScreened(points, cloud, epsilon0);
+                    PairSumResult found;
+                    NearField(cutoff, epsilon0, kernels).screened(points, cloud, found, NearPrecision::singlePrecision);
+                    EXPECT_EQ(found.pairs, expected.pairs);
+                    for (Index i = 0; i < targets; ++i) {
+                        ASSERT_LE((found.field.row(i) - expected.field.row(i)).matrix().norm(),
+                                  1e-6 * expected.fieldScale[i])
+                            << i;
+                        ASSERT_LE(std::abs(found.potential[i] - expected.potential[i]),
+                                  1e-6 * expected.potentialScale[i])
+                            << i;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_P(InstructionSet, singlePrecisionHasNoUnitOfItsOwn)
+{
+    // Powers of two change nothing but exponents, however small or large: lengths of 1e-9 and 1e9 m, charges of 1e-30 C.
+    const ChargedPoints points = randomPoints(60, 1.0, 1.0, 1.0, 65);
+    PairSumResult expected;
+    NearField(0.5, epsilon0, kernels).screened(points, ChargeCloud(0.5, 2), expected, NearPrecision::singlePrecision);
+    for (const int shift : {-30, 30}) {
+        const double length = std::ldexp(1.0, shift);
+        ChargedPoints scaled = points;
+        scaled.position *= length;
+        scaled.charge *= std::ldexp(1.0, -66);
+        PairSumResult found;
+        NearField(0.5 * length, epsilon0, kernels)
+            .screened(scaled, ChargeCloud(0.5 * length, 2), found, NearPrecision::singlePrecision);
+        const double factor = std::ldexp(1.0, -66) / length / length;
+        EXPECT_LE((found.field - factor * expected.field).abs().maxCoeff(),
+                  1e-6 * factor * expected.field.abs().maxCoeff());
+    }
+}
+
 TEST_P(InstructionSet, decidesPairsOnALatticeLikeTheDoubleLoop)
 {
     for (const double offset : {0.0, 0.3, 1234.567}) {

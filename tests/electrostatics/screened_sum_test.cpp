@@ -113,6 +113,16 @@ TEST(ScreenedSum, refusesTwoPointsAtOnePosition)
     ChargedPoints points = randomPoints(50, 1.0, 1.0, 1.0, 38);
     points.position.row(8) = points.position.row(41);
     points.targets = 20;
+    NearField near(0.3, epsilon0);
+    PairSumResult result;
+    for (const NearPrecision precision : {NearPrecision::doublePrecision, NearPrecision::singlePrecision}) {
+        for (const Index targets : {20, 50}) {
+            points.targets = targets;
+            const std::string found = refusal([&] { near.screened(points, ChargeCloud(0.3, 2), result, precision); });
+            EXPECT_NE(found.find("share the position"), std::string::npos) << found;
+        }
+    }
+    points.targets = 20;
     EXPECT_NE(refusal([&] { screened(points, ChargeCloud(0.3, 2)); }).find("rows 8 and 41 share the position"),
               std::string::npos);
 }
