@@ -2,6 +2,7 @@
 #include "dem_coupling/accuracy_choice.hpp"
 
 #include "dem_coupling/field_error/box_of_mesh.hpp"
+#include "dem_coupling/field_methods/p3m.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,27 +29,42 @@ constexpr std::array<Measured, 4> table{{{2, PolynomialOrder::cubic, false, 0.05
                                          {4, PolynomialOrder::quartic, true, 0.005},
                                          {6, PolynomialOrder::quartic, true, 0.0012}}};
 
-}  // namespace
-
-double smallestAccuracy()
+double growth(double cellsPerDiameter)
 {
-    return table.back().error;
+    return std::max(1.0, cellsPerDiameter);
 }
 
-AccuracyChoice chooseForAccuracy(double accuracy)
+}  // namespace
+
+double smallestAccuracy(double cellsPerDiameter)
+{
+    return table.back().error * growth(cellsPerDiameter);
+}
+
+AccuracyChoice chooseForAccuracy(double accuracy, double cellsPerDiameter)
 {
     for (const Measured& row : table) {
-        if (row.error <= accuracy) {
+        const double error = row.error * growth(cellsPerDiameter);
+        if (error <= accuracy) {
             AccuracyChoice choice;
             choice.p3m.cloudCells = row.cloudCells;
             choice.p3m.gather = row.gather;
             choice.p3m.deferredCorrection = row.deferredCorrection;
-            choice.expected = row.error;
+            choice.p3m.nearPrecision = NearPrecision::singlePrecision;
+            choice.expected = error;
             return choice;
         }
     }
     throw std::invalid_argument("chooseForAccuracy: accuracy " + std::to_string(accuracy) + " must be at least "
-                                + std::to_string(smallestAccuracy()));
+                                + std::to_string(smallestAccuracy(cellsPerDiameter)));
+}
+
+double cellsPerDiameter(const DemParticles& particles, const PoissonMesh& mesh, const Box& demBox,
+                        MPI_Comm communicator)
+{
+    double sums[2] = {2 * particles.radius.sum(), static_cast<double>(particles.size())};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
+    return sums[1] > 0 ? sums[0] / sums[1] / P3m::cellSize(mesh.arrays(), demBox, communicator) : 0.0;
 }
 
 bool pairSumIsCheaper(Index particles, Index cells)
@@ -123,7 +139,7 @@ double expectedError(const FieldSettings& settings)
         const bool gatherReaches = row.gather == PolynomialOrder::cubic || p3m.gather == PolynomialOrder::quartic;
         const bool corrected = p3m.deferredCorrection || !row.deferredCorrection;
         if (p3m.cloudCells >= row.cloudCells && gatherReaches && corrected) {
-            error = row.error;
+            error = row.error * growth(settings.cellsPerDiameter);
         }
     }
     return error;

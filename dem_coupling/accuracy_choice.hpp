@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/field_settings.hpp"
 #include "dem_coupling/poisson_mesh.hpp"
 
@@ -16,16 +17,22 @@ struct AccuracyChoice {
     double expected = 0;  ///< RMS|E - E_exact|/RMS|E_exact|, worst of the measured scenes with plane walls
 };
 
-/// Smallest error that chooseForAccuracy can promise.
-double smallestAccuracy();
+/// Smallest error that chooseForAccuracy can promise. Below one diameter the error grows as diameter over cell size: measured
+/// .106 at half a diameter where cells of one diameter have .053 (dense, R = 2 cells), at most that for larger clouds.
+double smallestAccuracy(double cellsPerDiameter = 1);
 
 /// Error in a sphere of nine diameters, cells of one diameter: the flat faces of the mesh make it, whatever the clouds are.
 constexpr double curvedWallError = 0.016;
 
 /// The cheapest setting of p3m whose error was at most `accuracy` in every measured scene with plane walls: clouds of +-q and
 /// of like charges, beds, wall layers, on cells of one and two particle diameters, hexahedral and polyhedral
-/// (cases/speedAgainstError/doc/report.md). Throws std::invalid_argument unless accuracy >= smallestAccuracy().
-AccuracyChoice chooseForAccuracy(double accuracy);
+/// (cases/speedAgainstError/doc/report.md), larger for cells smaller than a particle. Sums pairs in single precision.
+/// Throws std::invalid_argument unless accuracy >= smallestAccuracy(cellsPerDiameter).
+AccuracyChoice chooseForAccuracy(double accuracy, double cellsPerDiameter = 1);
+
+/// Mean particle diameter over the size of the largest cell in the DEM box; 0 without particles. Collective.
+double cellsPerDiameter(const DemParticles& particles, const PoissonMesh& mesh, const Box& demBox,
+                        MPI_Comm communicator);
 
 /// Error of the pair sum with the first images between parallel planes, whose images of images it leaves out: worst of a bed, a
 /// cloud and wall layers of 1e3 to 1e4 charges in a grounded box.
@@ -42,7 +49,8 @@ std::optional<Box> groundedBox(const PoissonMesh& mesh, const std::array<bool, 3
 /// The six sides of a box as walls to mirror at.
 std::vector<ImageWall> wallsOf(const Box& box);
 
-/// Error that was measured for settings like these in the worst scene with plane walls. For pairwiseSum: 0 where it is exact,
+/// Error that was measured for settings like these in the worst scene with plane walls, times settings.cellsPerDiameter where
+/// that is above 1. For pairwiseSum: 0 where it is exact,
 /// without walls or with planes of which no two are parallel. NaN where nobody has measured it: other methods, clouds in
 /// metres, a plain gather with large clouds, images in cylinders, truncated sums.
 double expectedError(const FieldSettings& settings);

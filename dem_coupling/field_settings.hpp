@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/near_precision.hpp"
 #include "electrostatics/types.hpp"
 
 #include <limits>
@@ -47,6 +48,7 @@ struct P3mSettings {
     PolynomialOrder gather = PolynomialOrder::cubic;
     bool deferredCorrection = false;
     bool selfTerm = false;  ///< subtract the interpolation of the particle's own cloud
+    NearPrecision nearPrecision = NearPrecision::doublePrecision;  ///< arithmetic of the near sum
 };
 
 /// nearField: how the held field follows the particles between two updates, see NearFieldRefresh.
@@ -59,6 +61,7 @@ struct NearFieldSettings {
 struct FieldSettings {
     std::string method;                       ///< run-time selected name
     double accuracy = 0;                      ///< relative RMS field error asked for; 0: none
+    double cellsPerDiameter = 0;              ///< mean particle diameter over cell size; 0: unknown. For expectedError
     double nearCutoff = 0;                    ///< r_c [m] of him, directTruncation, hybridParticleCell
     double permittivity = 0;                  ///< eps [F/m]
     Vector3 externalField = Vector3::Zero();  ///< [V/m], added to every method's field

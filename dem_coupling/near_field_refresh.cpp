@@ -20,7 +20,7 @@ constexpr int smoothCloud = 2;
 
 NearFieldRefresh::NearFieldRefresh(double reach, double permittivity, const std::vector<ImageWall>& planes,
                                    const Box& demBox, const std::array<bool, 3>& periodic, MPI_Comm communicator,
-                                   PhaseTimes& times)
+                                   PhaseTimes& times, NearPrecision precision)
     : reach_(reach),
       permittivity_(permittivity),
       planes_(planes),
@@ -29,6 +29,7 @@ NearFieldRefresh::NearFieldRefresh(double reach, double permittivity, const std:
       times_(times),
       halo_(reach, demBox, periodic, communicator),
       near_(reach, permittivity),
+      precision_(precision),
       cloud_(reach, smoothCloud)
 {
 }
@@ -49,8 +50,9 @@ std::unique_ptr<NearFieldRefresh> NearFieldRefresh::create(const FieldSettings& 
                                     [](const ImageWall& wall) { return wall.shape != ImageWall::Shape::plane; }),
                      planes.end());
     }
-    auto refresh = std::make_unique<NearFieldRefresh>(near.reach, settings.permittivity, planes, dem.box(),
-                                                      dem.periodic(), communicator, times);
+    auto refresh = std::make_unique<NearFieldRefresh>(
+        near.reach, settings.permittivity, planes, dem.box(), dem.periodic(), communicator, times,
+        settings.method == "p3m" ? settings.p3m.nearPrecision : NearPrecision::doublePrecision);
     dem.setNearField(*refresh, near.interval);
     return refresh;
 }
@@ -73,7 +75,7 @@ void NearFieldRefresh::compute(const DemParticles& particles, Points& field, Poi
             addImages(particles.size(), ownImages);
         }
         try {
-            near_.screened(points_, cloud_, sums_);
+            near_.screened(points_, cloud_, sums_, precision_);
         } catch (const std::domain_error& error) {
             failure = error.what();
         }

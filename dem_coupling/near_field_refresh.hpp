@@ -21,13 +21,14 @@ class NearFieldRefresh {
 public:
     /// The one that settings.nearField asks for, handed to the DEM; null where the case holds the whole field. Images move with
     /// the particles where the field method knows them (p3m, pairwiseSum). `mesh` may be null without a mesh. Collective.
-    static std::unique_ptr<NearFieldRefresh> create(const FieldSettings& settings, const PoissonMesh* mesh, DemPort& dem,
-                                                    MPI_Comm communicator, PhaseTimes& times);
+    static std::unique_ptr<NearFieldRefresh> create(const FieldSettings& settings, const PoissonMesh* mesh,
+                                                    DemPort& dem, MPI_Comm communicator, PhaseTimes& times);
 
     /// @param reach   [m]
     /// @param planes  conductors with image charges; may be empty. Only those of Shape::plane
     NearFieldRefresh(double reach, double permittivity, const std::vector<ImageWall>& planes, const Box& demBox,
-                     const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times);
+                     const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times,
+                     NearPrecision precision = NearPrecision::doublePrecision);
 
     /// Field [V/m] of all charges at this rank's particles, and the share of each particle's own images (no rows without
     /// planes). Collective. Throws std::runtime_error, the same on every rank, when two particles share a position.
@@ -47,6 +48,7 @@ private:
     PhaseTimes& times_;
     ParticleHalo halo_;
     NearField near_;
+    NearPrecision precision_;
     ChargeCloud cloud_;
     ChargedPoints points_;
     PairSumResult sums_;

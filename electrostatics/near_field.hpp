@@ -3,6 +3,7 @@
 
 #include "electrostatics/gathered_rows.hpp"
 #include "electrostatics/linked_cells.hpp"
+#include "electrostatics/near_precision.hpp"
 #include "electrostatics/p3m/cloud.hpp"
 #include "electrostatics/pair_kernels.hpp"
 #include "electrostatics/types.hpp"
@@ -20,10 +21,6 @@ struct ChargedPoints {
     Points cellCentre;  ///< [m], centre of the mesh cell that holds the point; only for the double-count correction
     Index targets = 0;
 };
-
-/// Arithmetic of a near sum. In single precision positions are still compared in double; only separations and sums are rounded,
-/// to 24 bits, and twice as many pairs are computed at once.
-enum class NearPrecision { doublePrecision, singlePrecision };
 
 /// Field [V/m] and potential [V] at the targets, own charge excluded.
 struct PairSumResult {

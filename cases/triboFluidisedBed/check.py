@@ -11,6 +11,9 @@ import sys
 import numpy as np
 
 
+DIAMETER = 277e-6   # [m]
+
+
 def read(folder, pattern):
     """The columns of all series of a run, in order of time; where a run was continued, the later one holds."""
     rows, names = [], []
@@ -26,6 +29,7 @@ def read(folder, pattern):
 
 class Run:
     def __init__(self, folder):
+        self.folder = folder
         self.name = os.path.basename(folder)
         self.bed = read(folder, "particleStatistics/*/bed.dat")
         self.time = self.bed["Time"]
@@ -36,6 +40,15 @@ class Run:
 
     def late(self, name, seconds=0.5):
         return np.mean(self.bed[name][self.time > self.time[-1] - seconds])
+
+    def segregation(self):
+        """Mean charge within 1.25 diameters of a wall over that of the rest, in the last time-averaged profile."""
+        last = max(glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat"), key=lambda p: float(p.split("/")[-2]))
+        distance, density, charge = np.loadtxt(last, usecols=(0, 1, 2), unpack=True)
+        share = density*(distance[-1] + distance[0] - distance)     # in a square column the shells get smaller inwards
+        layer = distance < 1.25*DIAMETER
+        mean = [np.sum(share[k]*charge[k])/np.sum(share[k]) for k in (layer, ~layer)]
+        return mean[0]/mean[1] if mean[1] > 0 else np.nan
 
     def area(self, folder):
         with open(f"{folder}/system/bedSize") as file:
@@ -48,6 +61,8 @@ def line(run, weight, uncharged):
     drop = run.late("pressureDrop")
     text = (f"{run.name:18}  {drop:8.2f} Pa  {100*(drop/uncharged - 1):+7.2f} %  {1e6*run.late('chargePerMass'):9.2f} uC/kg"
             f"  {run.late('wallParticles'):8.1f}  {100*run.late('wallShare'):7.1f} %  {run.late('wallSpeed'):8.4f} m/s")
+    if run.acceleration:
+        text += f"  {run.segregation():6.2f}"
     if run.acceleration and not run.uniform:
         text += f"  saturates at {1e6*bed['saturation'][-1]:.2f} uC/kg, tau {bed['tau'][-1]:.2f} s of a t"
     return text
@@ -83,7 +98,7 @@ def main():
     ok = abs(off) <= 0.03
     print(f"{int(base.bed['particles'][-1])} particles, weight/area {weight:.2f} Pa, uncharged pressure drop {uncharged:.2f} Pa, "
           f"{100*off:+.2f} %: {'ok' if ok else 'FAILED'}")
-    print("run                 drop          to uncharged  charge             at wall   weight on walls  RMS speed there")
+    print("run                 drop          to uncharged  charge             at wall   weight on walls  RMS speed there  charge at walls / inside")
     for run in runs:
         print(line(run, weight, uncharged))
         if run.charge is not None:

@@ -52,7 +52,7 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
       mesh_(mesh),
       communicator_(communicator),
       times_(times),
-      cellSize_(largestInBox(mesh.arrays(), mesh.arrays().volume.pow(1.0 / 3.0), demBox, communicator)),
+      cellSize_(cellSize(mesh.arrays(), demBox, communicator)),
       reachOfCells_(largestInBox(mesh.arrays(), mesh.arrays().radius, demBox, communicator)),
       radius_(radiusFrom(settings.p3m, cellSize_)),
       exponent_(exponentFrom(settings.p3m, radius_, cellSize_)),
@@ -77,6 +77,11 @@ P3m::P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, co
     faceValues_ = special[0] != 0;
     matched_ = !faceValues_ && special[1] == 0 && mesh.useMatchedOperator();
     correct_ = settings.p3m.deferredCorrection && !matched_;
+}
+
+double P3m::cellSize(const MeshArrays& mesh, const Box& demBox, MPI_Comm communicator)
+{
+    return largestInBox(mesh, mesh.volume.pow(1.0 / 3.0), demBox, communicator);
 }
 
 double P3m::partnerCutoff() const
@@ -115,7 +120,8 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
         result.ownResponse = atRows_.rightCols(3);
     } else if (settings_.ownResponse) {
         const PhaseTimer timer(times_, Phase::near);
-        planes_.ownField(particles, settings_.permittivity, std::numeric_limits<double>::infinity(), result.ownResponse);
+        planes_.ownField(particles, settings_.permittivity, std::numeric_limits<double>::infinity(),
+                         result.ownResponse);
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
@@ -236,7 +242,7 @@ void P3m::sumNear(ParticleField& result)
             }
         }
         try {
-            near_.screened(points_, cloud_, sums_);
+            near_.screened(points_, cloud_, sums_, settings_.p3m.nearPrecision);
             addHiddenPairs();
             walls_.addNearPanels(sources_, settings_.permittivity, sums_.field, sums_.potential);
         } catch (const std::domain_error& error) {

@@ -23,6 +23,9 @@ public:
     P3m(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, const std::array<bool, 3>& periodic,
         MPI_Comm communicator, PhaseTimes& times);
 
+    /// h [m]: cube root of the volume of the largest cell whose centre lies in the DEM box. Collective.
+    static double cellSize(const MeshArrays& mesh, const Box& demBox, MPI_Comm communicator);
+
     void compute(const DemParticles& particles, ParticleField& result) override;
     double partnerCutoff() const override;
     bool hasPotential() const override { return true; }
@@ -57,7 +60,7 @@ private:
     ParticlesOnMesh particlesOnMesh_;
     bool matched_ = false;     ///< the mesh solves with the operator that is matched to the gather
     bool correct_ = false;     ///< deferred correction by a second solve
-    WallImages planes_;     ///< of a convex mesh with plane conducting sides, else none
+    WallImages planes_;        ///< of a convex mesh with plane conducting sides, else none
     bool faceValues_ = false;  ///< some boundary face, on any rank, has a value besides the case's own
 
     CloudSources sources_;

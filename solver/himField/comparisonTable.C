@@ -28,6 +28,7 @@ std::string p3mParameters(const P3mSettings& p3m, double cellSize)
     text += p3m.cloudExponent ? ", k " + std::to_string(p3m.cloudExponent) : "";
     text += p3m.gather == PolynomialOrder::quartic ? ", quartic" : ", cubic";
     text += p3m.deferredCorrection ? " + correction" : "";
+    text += p3m.nearPrecision == NearPrecision::singlePrecision ? ", pairs in single" : "";
     return text + (p3m.selfTerm ? " + self term" : "");
 }
 

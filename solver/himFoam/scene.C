@@ -86,7 +86,7 @@ void openDem(scene& s, MPI_Comm communicator)
     }
     checkNearField(s.settings.field.nearField, s.demSteps, complaints);
     findImageWalls(s.settings, *s.dem, complaints);
-    choosePairSum(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
+    chooseByAccuracy(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
     if (s.poisson) {
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
         s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);

@@ -73,7 +73,8 @@ std::string cloudText(const P3mSettings& p3m)
     text << "clouds of " << (p3m.cloudRadius > 0 ? p3m.cloudRadius : p3m.cloudCells)
          << (p3m.cloudRadius > 0 ? " m, " : " cells, ")
          << (p3m.gather == PolynomialOrder::quartic ? "quartic" : "cubic") << " gather"
-         << (p3m.deferredCorrection ? ", deferred correction" : "");
+         << (p3m.deferredCorrection ? ", deferred correction" : "")
+         << (p3m.nearPrecision == NearPrecision::singlePrecision ? ", pairs in single precision" : "");
     return text.str();
 }
 
@@ -97,8 +98,14 @@ std::string accuracyText(const FieldSettings& field)
         }
     } else {
         text << "expected at most " << expected << " between plane walls, about " << std::max(expected, curvedWallError)
-             << " between curved ones.";
-        if (expected > field.accuracy) {
+             << " between curved ones";
+        if (field.cellsPerDiameter > 1) {
+            text << ", in cells of 1/" << shown(field.cellsPerDiameter, 3) << " of a particle's diameter";
+        }
+        text << '.';
+        if (expected > field.accuracy && field.accuracy < smallestAccuracy(field.cellsPerDiameter)) {
+            text << " WARNING: no clouds are known to give as little in such cells; take cells of a diameter.";
+        } else if (expected > field.accuracy) {
             text << " WARNING: the entries of p3mCoeffs win over accuracy and give less; leave them out.";
         }
     }
@@ -124,10 +131,10 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
          << dem.chargingDescription().c_str() << "\n    field at wall contacts: "
          << (settings.wallContactField == WallContactField::total ? "total" : "self");
     if (!equilibria.empty()) {
-        Info << "\n\nEquilibrium at uncharged walls (S2.14), e/g by S2.15, of particles of mean diameter\n" << equilibria.c_str();
+        Info << "\n\nEquilibrium at uncharged walls (S2.14), e/g by S2.15, of particles of mean diameter\n"
+             << equilibria.c_str();
     }
-    Info << "\n\nField method "
-         << field.method.c_str();
+    Info << "\n\nField method " << field.method.c_str();
     if (FieldMethod::needsCutoff(field.method)) {
         Info << ", nearCutoff " << field.nearCutoff << " m";
     }
@@ -158,8 +165,9 @@ void printUniformCharge(const UniformCharge& charge)
 {
     Foam::Info << "Fixed uniform charge: charging is off, walls keep what they have. ";
     if (charge.replaced) {
-        Foam::Info << "All " << Foam::label(charge.particles) << " particles got their mean, " << shown(charge.mean, 12).c_str()
-                   << " C; in all " << shown(charge.before, 12).c_str() << " C before, " << shown(charge.after, 12).c_str() << " C now";
+        Foam::Info << "All " << Foam::label(charge.particles) << " particles got their mean, "
+                   << shown(charge.mean, 12).c_str() << " C; in all " << shown(charge.before, 12).c_str()
+                   << " C before, " << shown(charge.after, 12).c_str() << " C now";
     } else {
         Foam::Info << "All " << Foam::label(charge.particles) << " particles had the same charge already, "
                    << shown(charge.mean, 12).c_str() << " C";

@@ -57,6 +57,7 @@ caseSettings readCaseSettings(const Foam::fileName& casePath, Complaints& compla
         settings.fieldError = choices.fieldError;
         settings.dielectrics = choices.dielectrics;
         settings.methodByAccuracy = choices.methodByAccuracy;
+        settings.cloudsByAccuracy = choices.cloudsByAccuracy;
         if (settings.methodByAccuracy && !hasElectricMesh(casePath)) {
             settings.field.method = "pairwiseSum";
             settings.field.pairwiseSum.images = true;

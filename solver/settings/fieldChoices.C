@@ -29,6 +29,10 @@ void readP3m(checkedDictionary& coeffs, P3mSettings& settings)
                                                                                         : PolynomialOrder::cubic;
     settings.deferredCorrection = coeffs.yesNo("deferredCorrection", settings.deferredCorrection);
     settings.selfTerm = coeffs.yesNo("selfTerm", settings.selfTerm);
+    const char* precision = settings.nearPrecision == NearPrecision::singlePrecision ? "single" : "double";
+    settings.nearPrecision = coeffs.oneOf("nearPrecision", {"single", "double"}, precision) == "single"
+                                 ? NearPrecision::singlePrecision
+                                 : NearPrecision::doublePrecision;
 }
 
 /// The accuracy asked for, or 0.
@@ -130,6 +134,10 @@ fieldChoices readFieldChoices(const Foam::fileName& casePath, Complaints& compla
         checkedDictionary coeffs = properties.section(method + "Coeffs", !required);
         readCoeffs(coeffs, choice.settings);
         coeffs.refuseUnknownEntries();
+        if (accuracy > 0 && method == selected && method == "p3m") {
+            choices.cloudsByAccuracy = !coeffs.has("cloudCells") && !coeffs.has("cloudRadius") && !coeffs.has("gather")
+                                       && !coeffs.has("deferredCorrection");
+        }
         if (method == selected) {
             choices.selected = choice.settings;
         }

@@ -43,6 +43,25 @@ TEST(AccuracyChoice, expectsNoMoreThanWasAskedFor)
     }
 }
 
+TEST(AccuracyChoice, takesLargerCloudsWhereCellsAreSmallerThanParticles)
+{
+    EXPECT_EQ(chooseForAccuracy(0.055, 0.5).p3m.cloudCells, 2);
+    EXPECT_EQ(chooseForAccuracy(0.055, 2).p3m.cloudCells, 3);
+    EXPECT_EQ(chooseForAccuracy(0.012, 2).p3m.cloudCells, 4);
+    EXPECT_THROW(chooseForAccuracy(0.0012, 1.01), std::invalid_argument);
+    FieldSettings settings = p3mOf(chooseForAccuracy(0.055, 2).p3m);
+    settings.cellsPerDiameter = 2;
+    EXPECT_EQ(expectedError(settings), chooseForAccuracy(0.055, 2).expected);
+    // Measured in half a diameter: .106 at two cells, in the table twice .055.
+    settings.p3m.cloudCells = 2;
+    EXPECT_GE(expectedError(settings), 0.106);
+}
+
+TEST(AccuracyChoice, sumsPairsInSinglePrecisionWhichIsFarBelowEveryError)
+{
+    EXPECT_EQ(chooseForAccuracy(smallestAccuracy()).p3m.nearPrecision, NearPrecision::singlePrecision);
+}
+
 TEST(AccuracyChoice, refusesWhatNoSettingReaches)
 {
     EXPECT_NO_THROW(chooseForAccuracy(smallestAccuracy()));

@@ -41,7 +41,7 @@ class Accuracy(unittest.TestCase):
         self.assertIn("Accuracy 0.014 asked for (relative RMS field error): expected at most 0.012 between plane walls", text)
         self.assertNotIn("WARNING: the entries", text)
         written, text = self.run_with(
-            "fieldMethod p3m; p3mCoeffs { cloudCells 3; gather quartic; deferredCorrection yes; }")
+            "fieldMethod p3m; p3mCoeffs { cloudCells 3; gather quartic; deferredCorrection yes; nearPrecision single; }")
         self.assertNotIn("Accuracy", text)
         self.assertEqual(self.fields(chosen), self.fields(written))
         coarse, _ = self.run_with("fieldMethod p3m; accuracy 0.1;")
@@ -106,6 +106,25 @@ class Accuracy(unittest.TestCase):
         self.assertIn("clouds of 3 cells, cubic gather, deferred correction", text)
         self.assertIn("expected at most 0.055", text)
         self.assertIn("WARNING: the entries of p3mCoeffs win over accuracy", text)
+
+    def test_cells_smaller_than_the_particles_get_larger_clouds_or_a_warning(self):
+        # Cells of 10 mm and spheres of 15 mm: errors are taken as 1.5 times those of cells of a diameter.
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder, "him", diameter=0.015)
+            case.tool("blockMesh")
+            case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod p3m; accuracy 0.06;")
+            text = case.run("-dry-run").text
+            self.assertIn("clouds of 3 cells, quartic gather, deferred correction, pairs in single precision", text)
+            self.assertIn("expected at most 0.018 between plane walls, about 0.018 between curved ones, in cells of 1/1.5 of a", text)
+            case.replace(ELECTROSTATIC, "accuracy 0.06;", "accuracy 0.06; p3mCoeffs { cloudCells 2; }")
+            text = case.run("-dry-run").text
+            self.assertIn("clouds of 2 cells", text)
+            self.assertIn("expected at most 0.0825", text)
+            self.assertIn("WARNING: the entries of p3mCoeffs win over accuracy", text)
+            case.replace(ELECTROSTATIC, "accuracy 0.06; p3mCoeffs { cloudCells 2; }", "accuracy 0.0012;")
+            text = case.run("-dry-run").text
+            self.assertIn("clouds of 6 cells", text)
+            self.assertIn("WARNING: no clouds are known to give as little in such cells", text)
 
     def test_another_method_wins_and_is_warned_of(self):
         _, text = self.run_with("accuracy 0.014; fieldMethod him;", "-dry-run")

@@ -4,20 +4,22 @@
 
 #include "dem_coupling/accuracy_choice.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace him {
 
 namespace {
 
-/// Particles of all ranks. Collective.
-Index countOf(const DemPort& dem, MPI_Comm communicator)
+/// Clouds for cells smaller than the particles: the largest that are known where the accuracy is out of reach, of which
+/// printScene warns.
+void chooseClouds(FieldSettings& field)
 {
-    DemParticles particles;
-    dem.particles(particles);
-    std::int64_t count = particles.size();
-    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, communicator);
-    return count;
+    const double reachable = std::max(field.accuracy, smallestAccuracy(field.cellsPerDiameter));
+    const P3mSettings chosen = chooseForAccuracy(reachable, field.cellsPerDiameter).p3m;
+    field.p3m.cloudCells = chosen.cloudCells;
+    field.p3m.gather = chosen.gather;
+    field.p3m.deferredCorrection = chosen.deferredCorrection;
 }
 
 void requireAccuracyWithoutMesh(const FieldSettings& field, Complaints& complaints)
@@ -35,18 +37,30 @@ void requireAccuracyWithoutMesh(const FieldSettings& field, Complaints& complain
 
 }  // namespace
 
-void choosePairSum(caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh, MPI_Comm communicator,
-                   Complaints& complaints)
+void chooseByAccuracy(caseSettings& settings, const DemPort& dem, const foamPoissonMesh* mesh, MPI_Comm communicator,
+                      Complaints& complaints)
 {
     FieldSettings& field = settings.field;
-    if (!settings.methodByAccuracy) {
+    if (field.accuracy == 0) {
         return;
     }
     if (!mesh) {
-        requireAccuracyWithoutMesh(field, complaints);
+        if (settings.methodByAccuracy) {
+            requireAccuracyWithoutMesh(field, complaints);
+        }
         return;
     }
-    const Index particles = countOf(dem, communicator);
+    DemParticles own;
+    dem.particles(own);
+    std::int64_t particles = own.size();
+    MPI_Allreduce(MPI_IN_PLACE, &particles, 1, MPI_INT64_T, MPI_SUM, communicator);
+    field.cellsPerDiameter = cellsPerDiameter(own, *mesh, dem.box(), communicator);
+    if (settings.cloudsByAccuracy) {
+        chooseClouds(field);
+    }
+    if (!settings.methodByAccuracy) {
+        return;
+    }
     const Index cells = Foam::returnReduce(mesh->mesh().nCells(), Foam::sumOp<Foam::label>());
     // An empty scene will be filled, nobody knows how far.
     if (particles == 0 || field.accuracy < errorBetweenParallelWalls || field.outsideMesh == OutsideMesh::excluded
