@@ -158,9 +158,12 @@ void SurroundingsTable::walk(Index cell, double distance)
     std::sort(reached_.begin(), reached_.end());
 }
 
-/// A plane serves a cell when none of the space that its charges' images reach lies beyond it.
+/// A plane serves a cell on its inner side when none of the space that its charges' images reach lies beyond it.
 bool SurroundingsTable::planeServes(const WallPlane& plane, Index cell) const
 {
+    if (plane.distance(mesh_.centreOf(cell)) <= 0) {
+        return false;  // behind a re-entrant edge: the mirror image would stand inside the mesh
+    }
     const Vector3 mirrored = plane.mirror(mesh_.centreOf(cell));
     const double reach = radius_ + mesh_.radius[cell];
     for (const std::int32_t other : reached_) {
@@ -262,7 +265,7 @@ int imagesOf(const Vector3& position, const Surroundings& around, const std::vec
         for (const std::int32_t n : around.planes) {
             const WallPlane& plane = planes[static_cast<std::size_t>(n)];
             const double distance = plane.distance(position);
-            bool free = distance < least;
+            bool free = distance > 0 && distance < least;
             for (int other = 0; free && other < count; ++other) {
                 free = std::abs(plane.normal.dot(normalOf(other))) < sameWall;
             }

@@ -97,7 +97,7 @@ std::string accuracyText(const FieldSettings& field)
             text << " WARNING: fieldMethod wins over accuracy and gives less; leave it out.";
         }
     } else {
-        text << "expected at most " << expected << " between plane walls, about " << std::max(expected, curvedWallError)
+        text << "expected at most " << expected << " between plane walls without re-entrant edges, about " << std::max(expected, curvedWallError)
              << " between curved ones";
         if (field.cellsPerDiameter > 1) {
             text << ", in cells of 1/" << shown(field.cellsPerDiameter, 3) << " of a particle's diameter";

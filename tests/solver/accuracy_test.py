@@ -115,7 +115,7 @@ class Accuracy(unittest.TestCase):
             case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod p3m; accuracy 0.06;")
             text = case.run("-dry-run").text
             self.assertIn("clouds of 3 cells, quartic gather, deferred correction, pairs in single precision", text)
-            self.assertIn("expected at most 0.018 between plane walls, about 0.018 between curved ones, in cells of 1/1.5 of a", text)
+            self.assertIn("expected at most 0.018 between plane walls without re-entrant edges, about 0.018 between curved ones, in cells of 1/1.5 of a", text)
             case.replace(ELECTROSTATIC, "accuracy 0.06;", "accuracy 0.06; p3mCoeffs { cloudCells 2; }")
             text = case.run("-dry-run").text
             self.assertIn("clouds of 2 cells", text)
