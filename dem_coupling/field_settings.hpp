@@ -31,8 +31,15 @@ struct PairwiseSumSettings {
     std::vector<ImageWall> imageWalls;                            ///< from the DEM scene
 };
 
+/// What becomes of the field that the mesh makes of a particle in its own cell.
+enum class OwnCellResponse {
+    keep,       ///< as published
+    forceOnly,  ///< it acts in the force, charging does not see it
+    remove      ///< taken out of the field
+};
+
 struct HimSettings {
-    bool removeOwnCellResponse = false;  ///< ownCellResponse remove: take out the self-field that the mesh makes
+    OwnCellResponse ownCellResponse = OwnCellResponse::keep;
 };
 
 struct HimCellSettings {

@@ -33,6 +33,12 @@ laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { defa
 def methods(cell, stretch):
     """Variants by name; `cell` is the cell size h [m], `stretch` the longest cell diagonal over that of a cube of this size."""
     diagonal = np.sqrt(3) * cell * stretch * (1 + 1e-9)
+    clouds = {
+        "p3m-2h": "fieldMethod p3m; cloudCells 2;",
+        "p3m-3h": "fieldMethod p3m; cloudCells 3; gather quartic; deferredCorrection yes;",
+        "p3m-4h": "fieldMethod p3m; cloudCells 4; gather quartic; deferredCorrection yes;",
+        "p3m-6h": "fieldMethod p3m; cloudCells 6; gather quartic; deferredCorrection yes;",
+    }
     return {
         "him-diagonal": "fieldMethod him; nearCutoff %.12g;" % diagonal,
         "him-3h": "fieldMethod him; nearCutoff %.12g;" % (3 * cell),
@@ -41,10 +47,8 @@ def methods(cell, stretch):
         "particleCell-3h": "fieldMethod hybridParticleCell; nearCutoff %.12g;" % (3 * cell),
         "pairwise": "fieldMethod pairwiseSum;",
         "pairwise-images": "fieldMethod pairwiseSum; images yes;",
-        "p3m-2h": "fieldMethod p3m; cloudCells 2;",
-        "p3m-3h": "fieldMethod p3m; cloudCells 3; gather quartic; deferredCorrection yes;",
-        "p3m-4h": "fieldMethod p3m; cloudCells 4; gather quartic; deferredCorrection yes;",
-        "p3m-6h": "fieldMethod p3m; cloudCells 6; gather quartic; deferredCorrection yes;",
+        **clouds,
+        **{name + "-single": entries + " nearPrecision single;" for name, entries in clouds.items()},
     }
 
 

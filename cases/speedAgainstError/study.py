@@ -21,7 +21,8 @@ from scenes import CHARGE, DIAMETER, Scene
 HERE = Path(__file__).resolve().parent
 CORE = 0
 BOX_METHODS = ("him-diagonal", "him-3h", "himCell-adjacent", "truncation-3h", "particleCell-3h", "pairwise",
-               "pairwise-images", "p3m-2h", "p3m-3h", "p3m-4h", "p3m-6h")
+               "pairwise-images", "p3m-2h", "p3m-3h", "p3m-4h", "p3m-6h",
+               "p3m-2h-single", "p3m-3h-single", "p3m-4h-single")
 CURVED_METHODS = tuple(name for name in BOX_METHODS if name not in ("pairwise", "pairwise-images", "p3m-6h"))
 DRUM_METHODS = (*CURVED_METHODS, "pairwise-images")
 SHORT = ("diluteMixed", "bedMixed", "bedMixedFine", "wallLayer", "polyhedra", "sphere", "cylinder")

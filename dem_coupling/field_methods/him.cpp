@@ -31,7 +31,7 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     if (result.excludedCount > 0 && settings_.outsideMesh == OutsideMesh::error) {
         refuseOutside("him", locator_, particles, result.excludedCount, communicator_);
     }
-    if (settings_.him.removeOwnCellResponse) {
+    if (settings_.him.ownCellResponse != OwnCellResponse::keep) {
         extendOwnCellTable(particles.size());
     }
     addMeshField(particles, result);
@@ -56,8 +56,12 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
     result.pairs = sumPairs(sums_.pairs, failure, particles, points_.position, communicator_);
     result.field += sums_.field;
     result.ownResponse.resize(0, 3);
-    if (settings_.him.removeOwnCellResponse) {
-        removeOwnCellResponse(particles, result);
+    if (settings_.him.ownCellResponse == OwnCellResponse::remove) {
+        Points own;
+        ownCellResponse(particles, own);
+        result.field -= own;
+    } else if (settings_.him.ownCellResponse == OwnCellResponse::forceOnly && settings_.ownResponse) {
+        ownCellResponse(particles, result.ownResponse);
     }
     result.potential.resize(0);
     result.energy = std::numeric_limits<double>::quiet_NaN();
@@ -66,7 +70,7 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
 
 std::optional<OwnCellField> Him::ownCellField(const DemParticles& particles)
 {
-    if (settings_.him.removeOwnCellResponse) {
+    if (settings_.him.ownCellResponse == OwnCellResponse::remove) {
         return std::nullopt;
     }
     return probeOwnCellField(mesh_, locator_, particles, settings_.permittivity, communicator_);
@@ -109,12 +113,11 @@ void Him::extendOwnCellTable(Index particles)
     }
 }
 
-void Him::removeOwnCellResponse(const DemParticles& particles, ParticleField& result)
+void Him::ownCellResponse(const DemParticles& particles, Points& field)
 {
     const PhaseTimer timer(times_, Phase::exchange);
-    Points unitField;
-    locator_.gather([this](Index cell) { return ownCellField_[static_cast<std::size_t>(cell)]; }, unitField);
-    result.field -= unitField.colwise() * particles.charge;
+    locator_.gather([this](Index cell) { return ownCellField_[static_cast<std::size_t>(cell)]; }, field);
+    field.colwise() *= particles.charge;
 }
 
 void Him::addMeshField(const DemParticles& particles, ParticleField& result)

@@ -25,8 +25,8 @@ public:
 private:
     /// Unit-charge solves for cells that hold particles for the first time. Collective.
     void extendOwnCellTable(Index particles);
-    /// Takes the field out that the mesh makes of each particle at its own cell.
-    void removeOwnCellResponse(const DemParticles& particles, ParticleField& result);
+    /// The field that the mesh makes of each particle at its own cell.
+    void ownCellResponse(const DemParticles& particles, Points& field);
     void addMeshField(const DemParticles& particles, ParticleField& result);
     void sumNear(bool someExcluded);
     void sumNearWithExcluded();

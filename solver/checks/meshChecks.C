@@ -142,12 +142,17 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
 }
 
 std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, double permittivity, Complaints& complaints,
-                                                 bool neutralisingBackground, const dielectricChoices& dielectrics)
+                                                 bool neutralisingBackground, const dielectricChoices& dielectrics,
+                                                 double accuracy)
 {
     const std::size_t before = complaints.lines().size();
     refuseFlatMesh(mesh, complaints);
     Complaints alreadyMade;  // by openMesh
-    const potentialNumerics numerics = readPotentialNumerics(mesh.time().globalPath(), ofRegion("system", mesh.name()), alreadyMade);
+    potentialNumerics numerics =
+        readPotentialNumerics(mesh.time().globalPath(), ofRegion("system", mesh.name()), alreadyMade);
+    if (accuracy > 0 && !numerics.toleranceGiven) {
+        numerics.tolerance = toleranceFor(accuracy);
+    }
     checkSchemes(mesh, numerics, complaints);
 
     const std::string where = ofRegion(mesh.time().timeName(), mesh.name()) / "electricPotential";

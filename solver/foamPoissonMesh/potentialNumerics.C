@@ -5,6 +5,7 @@
 
 #include "lduMatrix.H"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -16,9 +17,9 @@ namespace {
 /// solver/doc/poisson.md.
 constexpr double defaultTolerance = 1e-4;
 
-const char* const knownLaplacians =
-    "Gauss linear followed by corrected, uncorrected, orthogonal, limited <number> or limited corrected <number>, with a "
-    "number from 0 to 1";
+const char* const knownLaplacians = "Gauss linear followed by corrected, uncorrected, orthogonal, limited <number> or "
+                                    "limited corrected <number>, with a "
+                                    "number from 0 to 1";
 
 std::vector<std::string> wordsOf(const std::string& text)
 {
@@ -69,10 +70,9 @@ void readSchemes(const Foam::fileName& casePath, const Foam::fileName& file, pot
 {
     const bool exists = checkedDictionary::exists(casePath, file);
     checkedDictionary schemes = exists ? checkedDictionary(casePath, file, complaints) : checkedDictionary(complaints);
-    numerics.gradient =
-        schemeOf(schemes.section("gradSchemes", true), "grad(electricPotential)", "Gauss linear");
-    const std::string laplacian = schemeOf(schemes.section("laplacianSchemes", true), "laplacian(electricPotential)",
-                                           "Gauss linear corrected");
+    numerics.gradient = schemeOf(schemes.section("gradSchemes", true), "grad(electricPotential)", "Gauss linear");
+    const std::string laplacian =
+        schemeOf(schemes.section("laplacianSchemes", true), "laplacian(electricPotential)", "Gauss linear corrected");
     const std::vector<std::string> words = wordsOf(laplacian);
     const std::optional<double> limit = limitOf(words);
     if (!limit) {
@@ -84,6 +84,14 @@ void readSchemes(const Foam::fileName& casePath, const Foam::fileName& file, pot
 }
 
 }  // namespace
+
+double toleranceFor(double accuracy)
+{
+    constexpr double share = 0.1;
+    constexpr double leftOfTolerance = 4;
+    constexpr double loosest = 1e-3;
+    return std::min(loosest, share * accuracy / leftOfTolerance);
+}
 
 potentialNumerics readPotentialNumerics(const Foam::fileName& casePath, const Foam::fileName& folder,
                                         Complaints& complaints)
@@ -103,6 +111,7 @@ potentialNumerics readPotentialNumerics(const Foam::fileName& casePath, const Fo
         }
         solver.oneOf("solver", known);
         numerics.tolerance = solver.positive("tolerance", defaultTolerance);
+        numerics.toleranceGiven = solver.has("tolerance");
         numerics.solver = solver.contents();
     }
     checkedDictionary corrections = solution.section("HIM", true);

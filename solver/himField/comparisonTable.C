@@ -99,7 +99,7 @@ std::string parametersOf(const FieldSettings& settings, double cellSize)
     if (FieldMethod::needsCutoff(settings.method)) {
         text = "nearCutoff " + length(settings.nearCutoff, cellSize);
     }
-    if (settings.method == "him" && settings.him.removeOwnCellResponse) {
+    if (settings.method == "him" && settings.him.ownCellResponse == OwnCellResponse::remove) {
         text += ", own response removed";
     }
     if (settings.method == "himCell") {

@@ -52,7 +52,8 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
     }
     if (s.mesh.valid()) {
         s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints,
-                                    s.settings.field.neutralisingBackground, s.settings.dielectrics);
+                                    s.settings.field.neutralisingBackground, s.settings.dielectrics,
+                                    s.settings.field.accuracy);
     }
     if (s.poisson) {
         checkConditions(s.settings.field, *s.poisson, complaints);

@@ -78,6 +78,27 @@ std::string cloudText(const P3mSettings& p3m)
     return text.str();
 }
 
+/// How much of the walls' response to a particle's own charge charging sees in spite of `wallContactField total`; empty where
+/// it sees none. Shares of the sphere's surface field as measured in a grounded cube (tests/dem_coupling/isolated_sphere_test.cpp).
+std::string ownResponseText(const FieldSettings& field)
+{
+    if (field.method == "p3m" && (!field.p3m.selfTerm || (field.p3m.cloudRadius == 0 && field.p3m.cloudCells < 3))) {
+        return "p3m knows it to 1 to 13 % of the particle's surface field (cells of a half to a tenth of the diameter "
+               "or so). "
+               "`selfTerm yes; cloudCells 3;` in p3mCoeffs leaves 0.6 %";
+    }
+    if (field.method == "him" && field.him.ownCellResponse == OwnCellResponse::keep) {
+        return "him keeps it, so isolated particles stop short of q_sat. `ownCellResponse forceOnly;` in himCoeffs "
+               "hides it from charging";
+    }
+    if (field.method == "himCell" || field.method == "hybridParticleCell") {
+        return field.method
+               + " keeps it, so isolated particles stop short of q_sat. Take p3m, or him with ownCellResponse "
+                 "forceOnly";
+    }
+    return {};
+}
+
 /// What is to be expected of the settings in view of the accuracy that was asked for.
 std::string accuracyText(const FieldSettings& field)
 {
@@ -97,8 +118,8 @@ std::string accuracyText(const FieldSettings& field)
             text << " WARNING: fieldMethod wins over accuracy and gives less; leave it out.";
         }
     } else {
-        text << "expected at most " << expected << " between plane walls without re-entrant edges, about " << std::max(expected, curvedWallError)
-             << " between curved ones";
+        text << "expected at most " << expected << " between plane walls without re-entrant edges, about "
+             << std::max(expected, curvedWallError) << " between curved ones";
         if (field.cellsPerDiameter > 1) {
             text << ", in cells of 1/" << shown(field.cellsPerDiameter, 3) << " of a particle's diameter";
         }
@@ -130,6 +151,11 @@ void printScene(const caseSettings& settings, const DemPort& dem, const foamPois
          << wallTable(settings, dem, mesh).c_str() << "\nContact charging\n"
          << dem.chargingDescription().c_str() << "\n    field at wall contacts: "
          << (settings.wallContactField == WallContactField::total ? "total" : "self");
+    const std::string own = ownResponseText(field);
+    if (dem.charging() && !settings.fixedUniformCharge && settings.wallContactField == WallContactField::total
+        && !own.empty()) {
+        Info << "\n    response of walls to a particle's own charge: " << own.c_str();
+    }
     if (!equilibria.empty()) {
         Info << "\n\nEquilibrium at uncharged walls (S2.14), e/g by S2.15, of particles of mean diameter\n"
              << equilibria.c_str();

@@ -75,7 +75,10 @@ void readCoeffs(checkedDictionary& coeffs, FieldSettings& settings)
     if (method == "pairwiseSum") {
         readPairwiseSum(coeffs, settings.pairwiseSum);
     } else if (method == "him") {
-        settings.him.removeOwnCellResponse = coeffs.oneOf("ownCellResponse", {"keep", "remove"}, "keep") == "remove";
+        const std::string own = coeffs.oneOf("ownCellResponse", {"keep", "forceOnly", "remove"}, "keep");
+        settings.him.ownCellResponse = own == "remove"      ? OwnCellResponse::remove
+                                       : own == "forceOnly" ? OwnCellResponse::forceOnly
+                                                            : OwnCellResponse::keep;
     } else if (method == "himCell") {
         settings.himCell.deltaMin = coeffs.has("deltaMin") ? coeffs.positive("deltaMin", 1) : 0;
     } else if (method == "p3m") {

@@ -16,7 +16,7 @@ namespace him {
 
 namespace {
 
-constexpr double length = 0.06;    // the shaker's cube [m]
+constexpr double length = 0.06;     // the shaker's cube [m]
 constexpr double radius = 6.35e-3;  // of its PTFE spheres [m]
 constexpr double charge = -3.441e-9;
 constexpr std::array<bool, 3> open{false, false, false};
@@ -47,8 +47,8 @@ double remainder(const FieldSettings& asked, const Vector3& place, const Vector3
 }
 
 /// Touching the floor in the middle, off the middle, near an edge and in a corner.
-const std::array<Vector3, 4> places{Vector3(0.03, 0.03, radius), Vector3(0.0213, 0.0377, radius), Vector3(0.0071, 0.031, radius),
-                                    Vector3(radius, radius, radius)};
+const std::array<Vector3, 4> places{Vector3(0.03, 0.03, radius), Vector3(0.0213, 0.0377, radius),
+                                    Vector3(0.0071, 0.031, radius), Vector3(radius, radius, radius)};
 const Vector3 down(0, 0, -1);
 
 TEST(IsolatedSphere, stopsAtSaturationWithTheImagesOfPairwiseSum)
@@ -71,9 +71,11 @@ TEST(IsolatedSphere, stopsAtSaturationWithTheResponseTableOfHim)
 {
     FieldSettings settings;
     settings.method = "him";
-    settings.him.removeOwnCellResponse = true;
-    for (const Vector3& place : places) {
-        EXPECT_NEAR(remainder(settings, place, down), 0, 1e-12);
+    for (const OwnCellResponse response : {OwnCellResponse::forceOnly, OwnCellResponse::remove}) {
+        settings.him.ownCellResponse = response;
+        for (const Vector3& place : places) {
+            EXPECT_NEAR(remainder(settings, place, down), 0, 1e-12);
+        }
     }
 }
 
@@ -89,6 +91,21 @@ TEST(IsolatedSphere, isHeldBackByTheWallsWhenHimKeepsItsOwnResponse)
     EXPECT_GT(largest, 0.01);
 }
 
+TEST(IsolatedSphere, stopsWithinWhatTheLogSaysOfP3mAsItIs)
+{
+    // Cells of .25 to .6 diameters, clouds of two: 1 to 13 % of the surface field, in the corner and away from it.
+    FieldSettings settings;
+    settings.method = "p3m";
+    double largest = 0;
+    for (const Index cells : {8, 12, 20, 40}) {
+        for (const Vector3& place : places) {
+            largest = std::max(largest, std::fabs(remainder(settings, place, down, cells)));
+        }
+    }
+    EXPECT_LT(largest, 0.13);
+    EXPECT_GT(largest, 0.05);
+}
+
 TEST(IsolatedSphere, stopsWithinHalfAPerCentOfSaturationWithP3mAndItsSelfTerm)
 {
     FieldSettings settings;
@@ -98,7 +115,8 @@ TEST(IsolatedSphere, stopsWithinHalfAPerCentOfSaturationWithP3mAndItsSelfTerm)
         settings.p3m.cloudCells = cloudCells;
         for (const Index cells : {20, 40}) {
             for (const Vector3& place : places) {
-                EXPECT_NEAR(remainder(settings, place, down, cells), 0, 5e-3) << place.transpose() << ", " << cells << " cells";
+                EXPECT_NEAR(remainder(settings, place, down, cells), 0, 5e-3)
+                    << place.transpose() << ", " << cells << " cells";
             }
         }
     }

@@ -73,7 +73,7 @@ class Bouncing(unittest.TestCase):
         contacts = int(re.search(r"contacts with particles, walls +\d+, (\d+)", result.text).group(1))
         return case.particles("%g" % (STEPS * 1e-5))[1]["charge"], contacts
 
-    METHODS = {"him": "himCoeffs { nearCutoff 0.02; ownCellResponse remove; }", "p3m": "himCoeffs { nearCutoff 0.02; }"}
+    METHODS = {"him": "himCoeffs { nearCutoff 0.02; ownCellResponse forceOnly; }", "p3m": "himCoeffs { nearCutoff 0.02; }"}
 
     def test_an_isolated_sphere_follows_the_formula_of_n_contacts_at_intervals_1_10_and_1000(self):
         for method, coeffs in self.METHODS.items():
