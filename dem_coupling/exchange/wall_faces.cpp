@@ -61,6 +61,12 @@ std::vector<double> packed(const std::vector<WallFacePolygon>& faces)
     return data;
 }
 
+/// Square of the distance of a point to a box [m2].
+double squaredDistance(const Vector3& point, const Box& box)
+{
+    return (box.lower - point).cwiseMax(point - box.upper).cwiseMax(0.0).squaredNorm();
+}
+
 /// Lexicographic order that takes nearly equal numbers for equal.
 bool before(const Vector3& a, const Vector3& b, double tolerance)
 {
@@ -123,6 +129,7 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
         for (const Vector3& corner : faces_[n].corners) {
             box.extend(corner);
         }
+        boxes_.push_back(box);
         const Vector3 margin = Vector3::Constant(reach * (1 + sameDistance));
         const Bin low = binOf(box.lower - margin), high = binOf(box.upper + margin);
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
@@ -158,12 +165,17 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
     if (bin == bins_.end()) {
         return best;
     }
+    const double tolerance = sameDistance * (reach_ + binSize_);
     for (const Index face : bin->second) {
-        const double away = serves(face, wall) ? distance(point, face) : std::numeric_limits<double>::max();
+        // No face is nearer than its box, and few boxes of a bin are within reach: most faces go without their triangles.
+        const double useful = tolerance + (best.face < 0 ? reach_ : std::min(reach_, best.distance + tolerance));
+        if (!serves(face, wall) || squaredDistance(point, boxes_[static_cast<std::size_t>(face)]) > useful * useful) {
+            continue;
+        }
+        const double away = distance(point, face);
         if (away > reach_) {
             continue;
         }
-        const double tolerance = sameDistance * (reach_ + binSize_);
         const bool nearer = best.face < 0 || away < best.distance - tolerance;
         const bool asNear = best.face >= 0 && std::abs(away - best.distance) <= tolerance;
         if (nearer || (asNear && before(centreOf(face), centreOf(best.face), tolerance))) {

@@ -5,8 +5,9 @@
 #include "electrostatics/types.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace him {
@@ -51,6 +52,17 @@ public:
 
 private:
     using Bin = std::array<std::int64_t, 3>;
+    struct BinHash {
+        std::size_t operator()(const Bin& bin) const
+        {
+            std::uint64_t mixed = 0;
+            for (const std::int64_t number : bin) {
+                mixed = (mixed ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15u;
+                mixed ^= mixed >> 32;
+            }
+            return mixed;
+        }
+    };
     Bin binOf(const Vector3& point) const;
     double distance(const Vector3& point, Index face) const;
     bool serves(Index face, int wall) const
@@ -63,8 +75,9 @@ private:
     double binSize_ = 1;  ///< [m]
     std::vector<WallFacePolygon> faces_;
     std::vector<Vector3> centres_, normals_;
+    std::vector<Box> boxes_;  ///< around the corners of each face
     std::vector<Index> firstOfRank_;  ///< one more than ranks
-    std::map<Bin, std::vector<Index>> bins_;  ///< faces whose reach touches a bin
+    std::unordered_map<Bin, std::vector<Index>, BinHash> bins_;  ///< faces whose reach touches a bin
     SparseExchange::Buffers outgoing_, incoming_;
 };
 

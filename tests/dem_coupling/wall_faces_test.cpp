@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <mpi.h>
 
@@ -74,6 +75,37 @@ TEST(WallFaces, takesTheFaceOfSmallerCentreForAPointOnAnEdge)
         ASSERT_GE(place.face, 0);
         EXPECT_NEAR(faces.centreOf(place.face)[0], (n - 0.5) * edge, 1e-15);
     }
+}
+
+TEST(WallFaces, findsTheNearestOfTiltedFacesAtEveryPointAsALookAtAllOfThemDoes)
+{
+    // A cylinder of 24 strips, whose boxes overlap.
+    constexpr double pi = 3.14159265358979323846;
+    std::vector<WallFacePolygon> strips;
+    for (int n = 0; n < 24 && rankOf() == 0; ++n) {
+        const double a = 2 * pi * n / 24 + 0.1, b = 2 * pi * (n + 1) / 24 + 0.1;
+        for (int level = 0; level < 4; ++level) {
+            const double low = 0.3 * level, high = low + 0.3;
+            strips.push_back({0,
+                              {Vector3(std::cos(a), std::sin(a), low), Vector3(std::cos(b), std::sin(b), low),
+                               Vector3(std::cos(b), std::sin(b), high), Vector3(std::cos(a), std::sin(a), high)}});
+        }
+    }
+    const WallFaces faces(strips, 0.04, MPI_COMM_WORLD);
+    int found = 0;
+    for (int n = 0; n < 500; ++n) {
+        const double angle = 0.37 * n, radius = 0.93 + 0.0002 * n, height = 1.2 * (n % 37) / 37.0;
+        const Vector3 point(radius * std::cos(angle), radius * std::sin(angle), height);
+        const double nearest = faces.distanceTo(point, 0);
+        const WallFaces::Place place = faces.find(point, 0);
+        EXPECT_EQ(place.face >= 0, nearest <= faces.reach()) << n;
+        if (place.face >= 0) {
+            ++found;
+            EXPECT_NEAR(place.distance, nearest, 1e-9) << n;
+        }
+    }
+    EXPECT_GT(found, 100);
+    EXPECT_LT(found, 400);
 }
 
 TEST(WallFaces, bringsEveryChargeOnceToTheRankThatCountsItsFace)
