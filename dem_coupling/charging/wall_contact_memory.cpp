@@ -46,6 +46,7 @@ std::size_t WallContactMemory::pack(int row, double* buffer) const
 std::size_t WallContactMemory::unpack(int row, const double* buffer)
 {
     std::size_t n = 0;
+    occupiedKnown_ = false;
     contacts_[row].resize(static_cast<std::size_t>(buffer[n++]));
     for (Contact& contact : contacts_[row]) {
         contact.wall = static_cast<int>(buffer[n++]);
@@ -74,14 +75,34 @@ WallContactMemory::Contact* WallContactMemory::find(int row, const WallTouch& to
     return best;
 }
 
+void WallContactMemory::findOccupied(int rows)
+{
+    if (occupiedKnown_ && rows == rowsKnown_) {
+        return;
+    }
+    occupied_.clear();
+    for (int row = 0; row < rows; ++row) {
+        if (!contacts_[row].empty()) {
+            occupied_.push_back(row);
+        }
+    }
+    occupiedKnown_ = true;
+    rowsKnown_ = rows;
+}
+
 std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, int rows, Reloading reloading,
                                        std::vector<GrowingWallContact>& growing)
 {
     growing.clear();
+    findOccupied(rows);
+    const std::size_t before = occupied_.size();
     std::int64_t begun = 0;
     for (const WallTouch& touch : touches) {
         Contact* contact = find(touch.particle, touch);
         if (!contact) {
+            if (contacts_[touch.particle].empty()) {
+                occupied_.push_back(touch.particle);
+            }
             contacts_[touch.particle].push_back({touch.wall, 0.0, 0.0, {0, 0, 0}, 0.0, notTouched});
             contact = &contacts_[touch.particle].back();
             ++begun;
@@ -91,11 +112,11 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
             std::copy_n(touch.normal, 3, contact->normal);
         }
     }
-    for (int row = 0; row < rows; ++row) {
+    if (occupied_.size() > before) {
+        std::sort(occupied_.begin(), occupied_.end());
+    }
+    for (const int row : occupied_) {
         auto& contacts = contacts_[row];
-        if (contacts.empty()) {
-            continue;
-        }
         contacts.erase(std::remove_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.newArea < 0; }),
                        contacts.end());
         for (Contact& contact : contacts) {
@@ -114,6 +135,8 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
             contact.newArea = notTouched;
         }
     }
+    occupied_.erase(std::remove_if(occupied_.begin(), occupied_.end(), [this](int row) { return contacts_[row].empty(); }),
+                    occupied_.end());
     return begun;
 }
 

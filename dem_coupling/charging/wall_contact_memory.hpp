@@ -28,8 +28,16 @@ public:
 
     /// Makes room for the rows [0, rows).
     void resize(std::size_t rows) { contacts_.resize(rows); }
-    void copyRow(int from, int to) { contacts_[to] = contacts_[from]; }
-    void clearRow(int row) { contacts_[row].clear(); }
+    void copyRow(int from, int to)
+    {
+        contacts_[to] = contacts_[from];
+        occupiedKnown_ = false;
+    }
+    void clearRow(int row)
+    {
+        contacts_[row].clear();
+        occupiedKnown_ = false;
+    }
 
     static constexpr std::size_t contactDoubles = 7;  ///< stored per contact
     /// Doubles needed to store a row, and storing and reading it (migration, restart). Both return the count.
@@ -53,9 +61,14 @@ private:
         double newArea;  ///< of this step; negative until a touch is seen
     };
     Contact* find(int row, const WallTouch& touch);
+    void findOccupied(int rows);
 
     double cosCurvature_;
     std::vector<std::vector<Contact>> contacts_;
+    /// Rows that had contacts after the last update(), in order: few particles of a bed touch a wall.
+    std::vector<int> occupied_;
+    bool occupiedKnown_ = false;  ///< false after rows moved or were cleared
+    int rowsKnown_ = 0;           ///< of the last update()
 };
 
 }  // namespace him

@@ -103,6 +103,28 @@ TEST_F(Memory, aPackedRowContinuesElsewhereWithoutNewGrowth)
     EXPECT_TRUE(growing.empty());
 }
 
+TEST_F(Memory, rowsThatAreFreedOrChangePlacesTakeTheirContactsAlong)
+{
+    step({touch(2, 0, 0, 1)});
+    memory.copyRow(1, 0);
+    memory.clearRow(1);
+    EXPECT_DOUBLE_EQ(step({touch(2, 0, 0, 0), touch(5, 0, 0, 1)}), 5);
+    memory.clearRow(0);
+    EXPECT_DOUBLE_EQ(step({touch(2, 0, 0, 0), touch(5, 0, 0, 1)}), 2);
+    EXPECT_EQ(growing.size(), 1);
+    EXPECT_DOUBLE_EQ(step({touch(2, 0, 0, 0), touch(6, 0, 0, 1)}), 1);
+    EXPECT_EQ(begun, 3);
+}
+
+TEST_F(Memory, growingContactsComeInTheOrderOfTheirRows)
+{
+    step({touch(2, 0, 0, 1)});
+    step({touch(3, 0, 0, 1), touch(2, 0, 0, 0)});
+    ASSERT_EQ(growing.size(), 2);
+    EXPECT_EQ(growing[0].particle, 0);
+    EXPECT_EQ(growing[1].particle, 1);
+}
+
 TEST(WallContactMemory, refusesAnAngleThatCanNotTellFacetsApart)
 {
     EXPECT_THROW(WallContactMemory(0), std::invalid_argument);
