@@ -43,7 +43,7 @@ void ChargeTransfer::setWalls(std::vector<int> types, std::vector<char> transfer
 }
 
 /// Gamma_ab [V/m] of two particles.
-double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const
+inline double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& law, int a, int b) const
 {
     double limit = law.limit(rows.radius[a], 1 / rows.radius[b]);
     if (pairs_.spreads()) {
@@ -53,7 +53,7 @@ double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& law, int
 }
 
 /// chargeGained() and chargeGainedFrozen() without their checks: kappa and growth are positive here.
-double ChargeTransfer::gainedBy(double drive, double relaxation, double rate, double growth) const
+inline double ChargeTransfer::gainedBy(double drive, double relaxation, double rate, double growth) const
 {
     const double explicitly = permittivity_ * rate * growth * drive;
     return update_ == WithinContact::updated ? explicitly * relaxationFactorOf(relaxation) : explicitly;
@@ -66,7 +66,7 @@ void ChargeTransfer::countFrozen(double xNow, double xBefore)
     }
 }
 
-void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<GrowingPair>& pairs,
+void ChargeTransfer::sumRelaxations(const DemRows& rows, const GrowingPairs& pairs,
                                     const std::vector<GrowingWallContact>& wallContacts)
 {
     relaxationSums_.assign(rows.all, 0.0);
@@ -74,7 +74,7 @@ void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<Growi
     for (int row = 0; row < rows.all; ++row) {
         inverseSurface_[row] = 1 / (4 * pi * rows.radius[row] * rows.radius[row]);
     }
-    for (const GrowingPair& contact : pairs) {
+    for (const GrowingPairs::Ends& contact : pairs.ends()) {
         const ChargingPair& law = pairs_.of(rows.type[contact.first], rows.type[contact.second]);
         if (!law.transfers) {
             continue;
@@ -99,9 +99,6 @@ void ChargeTransfer::sumRelaxations(const DemRows& rows, const std::vector<Growi
 /// charges that made the field), interpolated linearly to the contact point (S2.23 with the weights the right way round).
 double ChargeTransfer::fieldAtContact(const DemRows& rows, int a, int b, const double* normal) const
 {
-    if (!rows.held.rows) {
-        return 0;
-    }
     const double* heldA = rows.held.rows[a];
     const double* heldB = rows.held.rows[b];
     double apart[3] = {heldA[3] - heldB[3], heldA[4] - heldB[4], heldA[5] - heldB[5]};
@@ -118,12 +115,15 @@ double ChargeTransfer::fieldAtContact(const DemRows& rows, int a, int b, const d
     return (rows.radius[b] * fieldA + rows.radius[a] * fieldB) / (rows.radius[a] + rows.radius[b]);
 }
 
-void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& pairs,
+void ChargeTransfer::move(const DemRows& rows, const GrowingPairs& pairs,
                           const std::vector<GrowingWallContact>& wallContacts)
 {
     gained_.assign(rows.local, 0.0);
     wallGains_.clear();
-    for (const GrowingPair& contact : pairs) {
+    const bool frozen = update_ == WithinContact::frozen;
+    const std::size_t contacts = pairs.ends().size();
+    for (std::size_t n = 0; n < contacts; ++n) {
+        const GrowingPairs::Ends& contact = pairs.ends()[n];
         const bool ordered = rows.tag[contact.first] < rows.tag[contact.second];
         const int a = ordered ? contact.first : contact.second;
         const int b = ordered ? contact.second : contact.first;
@@ -131,24 +131,30 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
         if (!law.transfers) {
             continue;
         }
-        const double sign = ordered ? 1.0 : -1.0;
-        const double normal[3] = {sign * contact.normal[0], sign * contact.normal[1], sign * contact.normal[2]};
         const double relaxation = pairRelaxation(relaxationSums_[a], relaxationSums_[b],
                                                  numberOf(a, law.rate, contact.growth),
                                                  numberOf(b, law.rate, contact.growth));
         // What this contact has moved so far does not count when charges are frozen within it.
-        const double moved = update_ == WithinContact::frozen && contact.moved ? *contact.moved : 0;
-        const double drive = limitOf(rows, law, a, b) - surfaceFieldOf(a, rows.charge[a] - moved)
-                             + surfaceFieldOf(b, rows.charge[b] + moved) - fieldAtContact(rows, a, b, normal);
+        double* const kept = frozen ? pairs.within(n).moved : nullptr;
+        const double moved = kept ? *kept : 0;
+        double drive = limitOf(rows, law, a, b) - surfaceFieldOf(a, rows.charge[a] - moved)
+                       + surfaceFieldOf(b, rows.charge[b] + moved);
+        if (rows.held.rows) {
+            const double sign = ordered ? 1.0 : -1.0;
+            const double* const along = pairs.normal(n);
+            const double normal[3] = {sign * along[0], sign * along[1], sign * along[2]};
+            drive -= fieldAtContact(rows, a, b, normal);
+        }
         const double toA = gainedBy(drive, relaxation, law.rate, contact.growth);
-        if (update_ == WithinContact::frozen) {
-            if (contact.moved) {
-                *contact.moved += toA;
+        if (frozen) {
+            if (kept) {
+                *kept += toA;
             }
             if (a < rows.local) {
+                const double area = pairs.within(n).area;
                 const int smaller = rows.radius[a] < rows.radius[b] ? a : b;
-                countFrozen(numberOf(smaller, law.rate, contact.area),
-                            numberOf(smaller, law.rate, std::max(contact.area - contact.growth, 0.0)));
+                countFrozen(numberOf(smaller, law.rate, area),
+                            numberOf(smaller, law.rate, std::max(area - contact.growth, 0.0)));
             }
         }
         if (a < rows.local) {
@@ -172,7 +178,6 @@ void ChargeTransfer::move(const DemRows& rows, const std::vector<GrowingPair>& p
             const double* held = rows.held.rows[i];
             fieldNormal = dot(held, contact.normal) - dot(held + HeldField::ownResponse, contact.normal);
         }
-        const bool frozen = update_ == WithinContact::frozen;
         const double moved = frozen && contact.moved ? *contact.moved : 0;
         double limit = law.limit(rows.radius[i], 0);
         if (pairs_.spreads()) {

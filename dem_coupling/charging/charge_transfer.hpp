@@ -67,12 +67,13 @@ public:
 
     /// First half of a step: sums every particle's relaxation numbers. Afterwards relaxationSums() of the ghosts must be
     /// filled from their owners, like their charges.
-    void sumRelaxations(const DemRows& rows, const std::vector<GrowingPair>& pairs,
+    void sumRelaxations(const DemRows& rows, const GrowingPairs& pairs,
                         const std::vector<GrowingWallContact>& wallContacts);
     std::vector<double>& relaxationSums() { return relaxationSums_; }
 
-    /// Second half: computes every contact's charge, then applies all of it to the owned rows.
-    void move(const DemRows& rows, const std::vector<GrowingPair>& pairs,
+    /// Second half: computes every contact's charge, then applies all of it to the owned rows. With a held field the pairs
+    /// must have kept their normals, with frozen charges what is within the contact.
+    void move(const DemRows& rows, const GrowingPairs& pairs,
               const std::vector<GrowingWallContact>& wallContacts);
 
     /// Charge given to each wall by this rank [C].

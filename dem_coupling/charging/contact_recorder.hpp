@@ -3,7 +3,9 @@
 
 #include "dem_coupling/charging/charging_pairs.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 namespace him {
@@ -17,6 +19,70 @@ struct GrowingPair {
     double area = 0;   ///< now [m2]
     /// Charge that this contact has given to the particle of the lower tag since it began [C]; null where nobody keeps it.
     double* moved = nullptr;
+};
+
+/// The growing contacts of one step. A dense bed writes and reads hundreds of thousands of them in every step, which costs as
+/// much as memory is slow, so that the numbers of a contact lie apart and those that nobody will read are left out.
+class GrowingPairs {
+public:
+    struct Ends {
+        int first;
+        int second;
+        double growth;
+    };
+    struct Normal {
+        double component[3];
+    };
+    struct Within {
+        double area;
+        double* moved;
+    };
+
+    GrowingPairs() = default;
+    GrowingPairs(const std::vector<GrowingPair>& contacts)
+    {
+        for (const GrowingPair& contact : contacts) {
+            add(contact);
+        }
+    }
+    GrowingPairs(std::initializer_list<GrowingPair> contacts) : GrowingPairs(std::vector<GrowingPair>(contacts)) {}
+
+    /// What to keep of the contacts that are added from now on; everything unless told.
+    /// @param normals  for the field at the contact
+    /// @param within   GrowingPair::area and moved, for charges that are frozen within a contact
+    void keep(bool normals, bool within)
+    {
+        keepsNormals_ = normals;
+        keepsWithin_ = within;
+    }
+    bool keepsWithin() const { return keepsWithin_; }
+
+    void add(const GrowingPair& contact)
+    {
+        ends_.push_back({contact.first, contact.second, contact.growth});
+        if (keepsNormals_) {
+            normals_.push_back({{contact.normal[0], contact.normal[1], contact.normal[2]}});
+        }
+        if (keepsWithin_) {
+            within_.push_back({contact.area, contact.moved});
+        }
+    }
+    void clear()
+    {
+        ends_.clear();
+        normals_.clear();
+        within_.clear();
+    }
+
+    const std::vector<Ends>& ends() const { return ends_; }
+    const double* normal(std::size_t contact) const { return normals_[contact].component; }
+    const Within& within(std::size_t contact) const { return within_[contact]; }
+
+private:
+    bool keepsNormals_ = true, keepsWithin_ = true;
+    std::vector<Ends> ends_;
+    std::vector<Normal> normals_;  ///< as many as ends_, or none
+    std::vector<Within> within_;
 };
 
 /// A particle that touches a wall in this step, growing or not. On a mesh wall one touch per facet.
@@ -33,8 +99,9 @@ struct ContactRecorder {
     AreaLaw areaLaw = AreaLaw::hertz;
     double areaFactor = 0;  ///< contact area over effective radius times overlap, of areaLaw
     Reloading reloading = Reloading::counted;
-    bool keepsMoved = false;  ///< pairs carry GrowingPair::moved
-    std::vector<GrowingPair> pairs;
+    int movedValue = -1;  ///< where GrowingPair::moved stands among the history values of a contact; -1 when not kept
+    int groupBit = 1;     ///< of the particles that charge
+    GrowingPairs pairs;
     std::vector<WallTouch> touches;
     std::int64_t pairsBegun = 0;  ///< contacts that began in this step and that this rank counts
 

@@ -11,7 +11,9 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_property_global.h"
+#include "force.h"
 #include "modify.h"
+#include "pair_gran.h"
 #include "update.h"
 
 #include <algorithm>
@@ -28,6 +30,12 @@ namespace {
 void shortenInBox(void* box, double* vector)
 {
     static_cast<LAMMPS_NS::Domain*>(box)->minimum_image(vector[0], vector[1], vector[2]);
+}
+
+/// The granular pair style of this LIGGGHTS instance, or null.
+LAMMPS_NS::PairGran* granularPair(LAMMPS_NS::LAMMPS* lmp)
+{
+    return dynamic_cast<LAMMPS_NS::PairGran*>(lmp->force->pair_match("gran", 0));
 }
 
 }  // namespace
@@ -70,13 +78,20 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
         transfer_ = ChargeTransfer(std::move(options.pairs), epsilon0);
         transfer_.setUpdate(options.update);
         transfer_.setOwnImage(options.ownImage);
-        recorder_.keepsMoved = options.update == WithinContact::frozen;
+        recorder_.groupBit = groupbit;
+        recorder_.pairs.keep(true, options.update == WithinContact::frozen);
         losses_ = options.losses;
         initial_ = options.initial;
         realModuli_ = options.realModuli;
         roles_ = options.walls;
     } catch (const std::invalid_argument& wrong) {
         error->fix_error(FLERR, this, wrong.what());
+    }
+    const LAMMPS_NS::PairGran* pair = granularPair(lmp);
+    if (recorder_.pairs.keepsWithin() && pair && pair->get_fix_history()) {
+        error->fix_error(FLERR, this,
+                         "'update frozen' keeps a value in every contact, for which LIGGGHTS makes room at the first 'run'. "
+                         "Write this fix before it");
     }
     nevery = 1;
     create_attribute = 1;
@@ -109,6 +124,7 @@ int FixChargeGranContact::setmask()
 void FixChargeGranContact::init()
 {
     field_ = FixCoupleCfdEfield::find(lmp);
+    recorder_.pairs.keep(field_, recorder_.pairs.keepsWithin());
     refreshWalls();
     for (const WallRole& role : roles_) {
         if (std::none_of(walls_.begin(), walls_.end(), [&](const ListedWall& w) { return w.wall.name == role.name; })) {
@@ -125,6 +141,26 @@ void FixChargeGranContact::init()
     }
     const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
     transfer_.setMinimumImage(periodic ? shortenInBox : nullptr, domain);
+}
+
+int FixChargeGranContact::n_history_extra()
+{
+    LAMMPS_NS::PairGran* pair = granularPair(lmp);
+    return recorder_.pairs.keepsWithin() && pair && pair->is_history() ? 1 : 0;
+}
+
+bool FixChargeGranContact::history_args(char** args)
+{
+    static char name[] = "charging_moved";
+    static char keepsSign[] = "0";  // when the two particles swap places
+    args[0] = name;
+    args[1] = keepsSign;
+    return true;
+}
+
+void FixChargeGranContact::placeHistory()
+{
+    recorder_.movedValue = n_history_extra() > 0 ? granularPair(lmp)->fix_extra_dnum_index(this) : -1;
 }
 
 void FixChargeGranContact::handOver()

@@ -41,6 +41,9 @@ public:
     /// Reads the list of walls again; keeps the charges given to walls that are still there.
     void refreshWalls();
 
+    /// Finds where the pair style keeps the charge moved within each contact, when it does. During the pair style's set-up.
+    void placeHistory();
+
     // --- for the host
     ChargeTransfer& transfer() { return transfer_; }
     const std::vector<ListedWall>& walls() const { return walls_; }
@@ -69,6 +72,10 @@ public:
     int setmask() override;
     void init() override;
     void end_of_step() override;
+    /// One more value per pair contact under `update frozen`: the charge it has moved towards the lower tag. Contacts of others
+    /// do without, since history is read and written in every step.
+    int n_history_extra() override;
+    bool history_args(char** args) override;
     void post_run() override;
     /// [0] inserted, [1 + w] given to wall w, then leaked and lost to breakdown [C], times that breakdown acted, contacts
     /// whose x passed 0.5 under `update frozen`.

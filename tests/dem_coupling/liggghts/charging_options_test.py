@@ -77,6 +77,27 @@ class Options(unittest.TestCase):
         self.assertAlmostEqual((run.charge() - CHARGE) / (x * (SATURATION - CHARGE)), 1, delta=1e-9)
         self.assertNotIn("passed x", run.out)
 
+    def test_frozen_ignores_what_a_pair_contact_has_moved(self):
+        # Two equal spheres with charges +q and 0: updated moves q/2 (1 - exp(-2x)), frozen x q of the charges before the impact.
+        def change(words):
+            apart = RADIUS + 1e-6
+            balls = [(-apart, 0.0, 5e-3, SPEED / 2, 0.0, 0.0, 1e-11), (apart, 0.0, 5e-3, -SPEED / 2, 0.0, 0.0, 0.0)]
+            fix = "fix tribo all charge/gran/contact pair 1 1 gamma 0 kappa 40 pair 1 2 none " + words
+            run = Run(script(balls, PLANE, fix, step=STEP), IMPACT)
+            self.assertAlmostEqual(run.charge(1) + run.charge(2), 1e-11, delta=1e-23)
+            return run.charge(2)
+
+        x = -math.log(1 - 2 * change("") / 1e-11) / 2
+        self.assertGreater(x, 0.1)
+        self.assertAlmostEqual(change("update frozen") / (x * 1e-11), 1, delta=1e-9)
+
+    def test_frozen_is_refused_after_the_first_run(self):
+        late = script(FALLING, PLANE, FIX + "pair 1 2 none", step=STEP)
+        late += "run 1\nunfix tribo\n" + FIX + self.WALL + "update frozen\n"
+        run = Run(late, 1)
+        self.assertNotEqual(run.code, 0)
+        self.assertIn("Write this fix before it", run.out)
+
     def test_frozen_warns_above_one_half_and_overshoots_as_the_law_says(self):
         x = self.exponent("") * 1e3 / KAPPA
         run = impact(f"pair 1 2 gamma {gamma_of(SATURATION)!r} kappa 1e3 update frozen")
