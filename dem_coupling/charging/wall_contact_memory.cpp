@@ -135,8 +135,9 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
             contact.newArea = notTouched;
         }
     }
-    occupied_.erase(std::remove_if(occupied_.begin(), occupied_.end(), [this](int row) { return contacts_[row].empty(); }),
-                    occupied_.end());
+    occupied_.erase(
+        std::remove_if(occupied_.begin(), occupied_.end(), [this](int row) { return contacts_[row].empty(); }),
+        occupied_.end());
     return begun;
 }
 

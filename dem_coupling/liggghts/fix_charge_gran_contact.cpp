@@ -89,9 +89,10 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
     }
     const LAMMPS_NS::PairGran* pair = granularPair(lmp);
     if (recorder_.pairs.keepsWithin() && pair && pair->get_fix_history()) {
-        error->fix_error(FLERR, this,
-                         "'update frozen' keeps a value in every contact, for which LIGGGHTS makes room at the first 'run'. "
-                         "Write this fix before it");
+        error->fix_error(
+            FLERR, this,
+            "'update frozen' keeps a value in every contact, for which LIGGGHTS makes room at the first 'run'. "
+            "Write this fix before it");
     }
     nevery = 1;
     create_attribute = 1;
