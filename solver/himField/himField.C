@@ -26,6 +26,7 @@ SourceFiles
     particleShares.C
     particleTable.C
     referenceField.C
+    roundWall.C
     snapshot.C
     timedMethod.C
 \*---------------------------------------------------------------------------*/
@@ -117,6 +118,18 @@ void checkOptions(const Foam::argList& args, Complaints& complaints)
     }
 }
 
+/// A pair sum that is to mirror charges must not go without.
+void checkImages(const fieldChoice& choice, const snapshot& s, Complaints& complaints)
+{
+    if (choice.settings.pairwiseSum.images && !s.walls.refusal.empty()) {
+        complaints.add(choice.name + ": images",
+                       "found `yes`, but " + s.walls.refusal
+                           + ". Charges are mirrored where every wall is at 0 V, and all are "
+                             "planes of a convex space or one circular cylinder with flat ends. "
+                             "Use p3m, or say `images no` for the field without walls.");
+    }
+}
+
 /// Names in a list like "(him p3m)"; commas are allowed.
 std::vector<std::string> namesIn(std::string list)
 {
@@ -141,6 +154,7 @@ void run(const Foam::argList& args, MPI_Comm communicator)
     const fieldChoice& choice = names.empty() ? selected : *s.choices.find(names.front());
     if (!compare) {
         complaints.add(FieldMethod::check(s.complete(choice.settings), s.poisson.get(), s.box, s.periodic));
+        checkImages(choice, s, complaints);
     }
 
     const std::string file = args["particles"];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "himField/roundWall.H"
 #include "himField/snapshot.H"
 
 #include "foamPoissonMesh/conversions.H"
@@ -17,7 +18,7 @@ constexpr double sameplane = 1e-5;
 constexpr std::size_t mostPlanes = 32;
 
 /// Planes whose normals have a larger product than this, though they differ, are facets of a curved wall: the facets turn by less
-/// than 60 degrees, and images in each of them are none of the wall.
+/// than 60 degrees, and images in each of them are none of the wall. Of curved walls only findRoundWall() knows images.
 constexpr double facets = 0.5 + sameplane;
 
 struct plane {
@@ -131,8 +132,15 @@ meshWalls findMeshWalls(const foamPoissonMesh& mesh)
         walls.refusal = walls.refusal.empty() ? std::string(text) : walls.refusal;
     }
     if (curved(planes)) {
-        walls.refusal = "the walls are curved";
-    } else if (!convex(mesh, planes, size)) {
+        const std::vector<ImageWall> round = findRoundWall(mesh);
+        if (round.empty()) {
+            walls.refusal = "the walls are curved";
+        } else if (walls.refusal.empty()) {
+            walls.mirrors = round;
+        }
+        return walls;
+    }
+    if (!convex(mesh, planes, size)) {
         walls.refusal = "the walls are not convex";
     }
     if (walls.refusal.empty()) {
@@ -141,7 +149,7 @@ meshWalls findMeshWalls(const foamPoissonMesh& mesh)
             wall.name = planes[n].patch + " " + std::to_string(n);
             wall.point = toEigen(planes[n].point);
             wall.normal = toEigen(planes[n].normal);
-            walls.planes.push_back(wall);
+            walls.mirrors.push_back(wall);
         }
     }
     return walls;

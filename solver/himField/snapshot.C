@@ -58,7 +58,7 @@ bool needsMesh(const FieldSettings& settings)
 FieldSettings snapshot::complete(const FieldSettings& settings) const
 {
     FieldSettings whole = settings;
-    whole.pairwiseSum.imageWalls = walls.planes;
+    whole.pairwiseSum.imageWalls = walls.mirrors;
     if (poisson && FieldMethod::needsCutoff(settings.method) && settings.nearCutoff == 0) {
         whole.nearCutoff = poisson->largestCellDiagonal();
     }

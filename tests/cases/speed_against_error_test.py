@@ -31,6 +31,10 @@ class SpeedAgainstError(unittest.TestCase):
             self.assertLess(errors["p3m-2h"], 0.25 * errors["him-diagonal"], line)
             self.assertLess(errors["p3m-3h"], 0.02, line)
         self.assertIn("| dilute | p3m-3h |", report)
+        self.assertNotIn("left out", report[:report.index("## Cost")])
+        cylinder = report[report.index("### Cylinder"):].split("\n###")[0]
+        mirrored = next(line for line in cylinder.splitlines() if line.startswith("| pairwise-images")).split("|")
+        self.assertLess(float(mirrored[-3]), 0.1)
 
 
 if __name__ == "__main__":
