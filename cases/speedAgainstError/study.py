@@ -4,6 +4,7 @@
 import datetime
 import os
 import platform
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -100,7 +101,9 @@ def run(scene, root):
 
 
 def beside_lammps(scene, length, cutoffs, folder, names, rounds):
-    """LAMMPS and himField in turns on one core; rows like those of himField with the medians over the turns."""
+    """LAMMPS and himField in turns on one core, in a copy of the scene's case, whose own comparison stays as it is; rows like
+    those of himField with the medians over the turns."""
+    folder = Path(shutil.copytree(folder, folder.with_name(folder.name + "BesideLammps"), ignore=shutil.ignore_patterns("postProcessing", "log.*")))
     names = [name for name in names if name.startswith(("him-diagonal", "p3m"))]
     lammps.write_images(folder / "data.images", scene.position, scene.charge, length)
     exact = lammps.run(folder, "data.images", scene.charge, 9 if length > 30 else 5, 1e-6, 7, CORE)[2]
