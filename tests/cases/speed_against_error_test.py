@@ -13,6 +13,19 @@ SCENES = ("diluteMixed", "bedMixed", "bedMixedFine", "wallLayer", "polyhedra", "
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 
 
+# Largest relative RMS field errors of p3m with R = 2, 3, 4 h that the method is held to, by the beginning of a scene's title. On cells of one
+# diameter and in the cylinder only the middle one was set beforehand; the others bound what was measured.
+BOUNDS = {
+    "Dilute cloud, +-q": (0.04, 0.010, 0.004),
+    "Dense bed, +-q, h = 2 d": (0.04, 0.010, 0.003),
+    "Dense bed, +-q, h = d": (0.06, 0.015, 0.005),
+    "Layer on all six walls, +-q": (0.055, 0.004, 0.0015),
+    "Polyhedral mesh of a box": (0.06, 0.025, 0.01),
+    "Sphere": (0.03, 0.02, 0.015),
+    "Cylinder": (0.06, 0.02, 0.01),
+}
+
+
 class SpeedAgainstError(unittest.TestCase):
     def test_the_short_study_reports_every_scene_and_p3m_beats_him_in_each(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -32,7 +45,10 @@ class SpeedAgainstError(unittest.TestCase):
             cells = [cell.strip() for cell in line.split("|")][1:-1]
             errors = {name: float(cell.split(" at ")[0]) for name, cell in zip(names, cells[1:])}
             self.assertLess(errors["p3m-2h"], 0.25 * errors["him-diagonal"], line)
-            self.assertLess(errors["p3m-3h"], 0.02, line)
+            bounds = next(bounds for title, bounds in BOUNDS.items() if cells[0].startswith(title))
+            for name, bound in zip(("p3m-2h", "p3m-3h", "p3m-4h"), bounds):
+                self.assertLessEqual(errors[name], bound, line)
+                self.assertEqual(errors[name + "-single"], errors[name], line)
         self.assertIn("| dilute | p3m-3h |", report)
         tables = report[report.index("## Scenes"):report.index("## Cost")].split("\n### ")[1:]
         shown = [[line.split("|")[1].strip() for line in table.splitlines() if line.startswith("| ")][1:] for table in tables]
