@@ -305,5 +305,42 @@ TEST(HimWithoutOwnCellResponse, leavesASingleChargeAloneAndTheFieldOfOthersAsItI
     EXPECT_LT((removed - self).norm(), 1e-9 * self.norm());
 }
 
+TEST(HimOfATouchingPair, leavesAThirdOfAFieldOverACellWhenThePartnersCoulombFieldIsTakenOut)
+{
+    // What charging does with the partner: its pair field goes, what the mesh has of it less R31 stays. Between neighbouring cells
+    // the mesh has 1.32 times Coulomb over h (physics: .32 to .47 are left), in one cell nothing.
+    Box cube;
+    cube.lower.setZero();
+    cube.upper.setConstant(0.1);
+    constexpr double h = 0.01;
+    constexpr double d = h / 2;
+    constexpr double charge = 1e-9;
+    const auto left = [&](const Vector3& first, const Vector3& direction) {
+        BoxMesh mesh(cube, {10, 10, 10}, epsilon0, MPI_COMM_SELF);
+        FieldSettings settings;
+        settings.method = "him";
+        settings.nearCutoff = mesh.largestCellDiagonal();
+        settings.permittivity = epsilon0;
+        settings.him.ownCellResponse = OwnCellResponse::remove;
+        PhaseTimes times;
+        ParticleField result;
+        DemParticles pair = emptyParticles(2);
+        pair.position.row(0) = first.transpose().array();
+        pair.position.row(1) = (first + d * direction).transpose().array();
+        pair.charge << 0.0, charge;
+        FieldMethod::create(settings, &mesh, cube, {false, false, false}, MPI_COMM_SELF, times)->compute(pair, result);
+        const double ofPartner = charge / (4 * pi * epsilon0 * d * d);
+        const Vector3 rest = result.field.row(0).matrix().transpose() + ofPartner * direction;
+        return rest.norm() / ofPartner;
+    };
+    const Vector3 middle(0.055, 0.055, 0.055);
+    const Vector3 x = Vector3::UnitX();
+    EXPECT_LT(left(middle - 0.5 * d * x, x), 0.02);  // both in one cell
+    for (const double along : {0.05, 0.15, 0.3, 0.45}) {
+        const double share = left(middle + Vector3(h / 2 - along * d, 0.1 * h, -0.2 * h), x);
+        EXPECT_NEAR(share * (h / d) * (h / d), 0.32, 0.02);
+    }
+}
+
 }  // namespace
 }  // namespace him
