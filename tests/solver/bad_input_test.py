@@ -2,10 +2,9 @@
 """Every kind of bad input ends the run with exit code 1 and a message that says where, what was found and what to do."""
 
 import shutil
-import tempfile
 import unittest
 
-from tiny_case import TinyCase
+from tiny_case import SoundCaseTests
 
 ELECTROSTATIC = "constant/electrostaticProperties"
 COUPLING = "constant/couplingProperties"
@@ -13,21 +12,7 @@ POTENTIAL = "0/electricPotential"
 SCRIPT = "DEM/in.cube"
 
 
-class BadInput(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.sound = tempfile.TemporaryDirectory()
-        TinyCase(cls.sound.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.sound.cleanup()
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.case = TinyCase.copy(self.sound.name, folder.name)
-
+class BadInput(SoundCaseTests):
     def refused(self, *texts, options=("-dry-run",), ranks=1):
         result = self.case.run(*options, ranks=ranks)
         flat = " ".join(result.text.split())

@@ -7,7 +7,7 @@ import re
 import tempfile
 import unittest
 
-from tiny_case import PARTICLES, SIZE, TinyCase
+from tiny_case import PARTICLES, SIZE, SoundCaseTests, TinyCase
 
 EPSILON0 = 8.8541878128e-12
 ELECTROSTATIC = "constant/electrostaticProperties"
@@ -17,21 +17,7 @@ def table(particles=PARTICLES, header="x,y,z,q"):
     return header + "\n" + "".join("%r,%r,%r,%r\n" % (*position, charge) for position, _, charge in particles)
 
 
-class HimField(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.sound = tempfile.TemporaryDirectory()
-        TinyCase(cls.sound.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.sound.cleanup()
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.case = TinyCase.copy(self.sound.name, folder.name)
-
+class HimField(SoundCaseTests):
     def field(self, text, *options, ranks=1):
         """Rows of the output as dictionaries of text."""
         (self.case.path / "in.csv").write_text(text)

@@ -5,10 +5,9 @@ curved wall."""
 import csv
 import math
 import re
-import tempfile
 import unittest
 
-from tiny_case import TinyCase
+from tiny_case import SoundCaseTests
 
 EPSILON0 = 8.8541878128e-12
 RADIUS = 0.05  # [m]
@@ -68,20 +67,9 @@ def rounded(text):
     return head + "\n".join("(%.15g %.15g %.15g)" % tuple(size * e for e in p) for size, p in zip(sizes, points)) + tail
 
 
-class RoundWalls(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.sound = tempfile.TemporaryDirectory()
-        TinyCase(cls.sound.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.sound.cleanup()
-
+class RoundWalls(SoundCaseTests):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.case = TinyCase.copy(self.sound.name, folder.name)
+        super().setUp()
         self.case.write("constant/electrostaticProperties", "fieldMethod pairwiseSum;\n" + VARIANTS)
 
     def mesh(self, dictionary, *change):

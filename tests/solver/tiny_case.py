@@ -254,3 +254,20 @@ class CaseTests(unittest.TestCase):
         self.assertEqual(result.code, 1, result.text)
         for text in texts:
             self.assertIn(text, flat)
+
+
+class SoundCaseTests(CaseTests):
+    """Every test starts from its own copy of a sound case, `self.case`, that is meshed once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.sound = tempfile.TemporaryDirectory()
+        TinyCase(cls.sound.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.sound.cleanup()
+
+    def setUp(self):
+        super().setUp()
+        self.case = TinyCase.copy(self.sound.name, self.folder)
