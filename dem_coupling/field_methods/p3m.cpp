@@ -6,9 +6,7 @@
 #include "electrostatics/constants.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace him {
 

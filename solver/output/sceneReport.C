@@ -83,9 +83,8 @@ std::string cloudText(const P3mSettings& p3m)
 std::string ownResponseText(const FieldSettings& field)
 {
     if (field.method == "p3m" && (!field.p3m.selfTerm || (field.p3m.cloudRadius == 0 && field.p3m.cloudCells < 3))) {
-        return "p3m knows it to 1 to 13 % of the particle's surface field (cells of a half to a tenth of the diameter "
-               "or so). "
-               "`selfTerm yes; cloudCells 3;` in p3mCoeffs leaves 0.6 %";
+        return "p3m knows it to 1 to 13 % of the particle's surface field (conducting walls, cells of 0.6 to 0.12 "
+               "diameters). `selfTerm yes; cloudCells 3;` in p3mCoeffs leaves 0.6 %";
     }
     if (field.method == "him" && field.him.ownCellResponse == OwnCellResponse::keep) {
         return "him keeps it, so isolated particles stop short of q_sat. `ownCellResponse forceOnly;` in himCoeffs "
