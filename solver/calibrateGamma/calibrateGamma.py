@@ -7,10 +7,11 @@
 runs.dat has one line per run, `#` starts a comment:
 
     <Gamma [V/m]> <saturated charge per mass [C/kg]>
-    <Gamma [V/m]> <charge.dat> <mass [kg]>
+    <Gamma [V/m]> <charge.dat> [<charge.dat> ...] <mass [kg]>
 
-For the second kind the saturated charge is that of the curve Q_inf (1 - exp(-a t/tau)) (S6.1) fitted to the columns Time and
-total. Gamma is interpolated linearly between the runs whose charges enclose the target; beyond all runs it is extrapolated
+For the second kind the saturated charge is that of the curve Q_0 + Q_inf (1 - exp(-a (t - t_0)/tau)) (S6.1) fitted to the columns
+Time and total; t_0 and Q_0 are those of the last line before the charge begins to change. A run that was continued has a file for
+every time it started from; name them all, of times that two of them hold the later start counts. Gamma is interpolated linearly between the runs whose charges enclose the target; beyond all runs it is extrapolated
 from the last two, and the line says so.
 """
 
@@ -28,7 +29,7 @@ def fitted_limit(times, charges):
     """Q_inf of S6.1 by least squares: linear in Q_inf, golden section over the rate a/tau after a scan."""
     points = [(t, q) for t, q in zip(times, charges) if t > 0]
     if len(points) < 3:
-        raise Fault("fewer than three lines after time 0")
+        raise Fault("fewer than three lines after the charge begins to change")
 
     def trial(rate):
         shape = [-math.expm1(-rate * t) for t, _ in points]
@@ -55,15 +56,35 @@ def fitted_limit(times, charges):
     return limit
 
 
-def charge_of_run(file, mass):
+def lines_of(file):
+    """Time [s] and total charge [C] of every line of a charge.dat."""
     lines = file.read_text().splitlines()
-    names = [line for line in lines if line.startswith("#")][-1][1:].split()
-    rows = [line.split() for line in lines if line and not line.startswith("#")]
+    titles = [line for line in lines if line.startswith("#")]
+    names = titles[-1][1:].split() if titles else []
     if "Time" not in names or "total" not in names:
-        raise Fault("no columns Time and total")
+        raise Fault("%s has no columns Time and total" % file.name)
     time, total = names.index("Time"), names.index("total")
-    start = float(rows[0][total])
-    return (start + fitted_limit([float(r[time]) for r in rows], [float(r[total]) - start for r in rows])) / mass
+    rows = [line.split() for line in lines if line.strip() and not line.startswith("#")]
+    if not rows:
+        raise Fault("%s has no lines" % file.name)
+    return [(float(row[time]), float(row[total])) for row in rows]
+
+
+def joined(parts):
+    """One series from those of the starts of a run: what comes after a later start counts from that start alone."""
+    series = []
+    for part in sorted(parts):
+        series = [line for line in series if line[0] < part[0][0]] + part
+    return series
+
+
+def charge_of_run(files, mass):
+    series = joined([lines_of(file) for file in files])
+    begin = 0
+    while begin + 1 < len(series) and series[begin + 1][1] == series[0][1]:
+        begin += 1
+    first_time, first_charge = series[begin]
+    return (first_charge + fitted_limit([t - first_time for t, _ in series], [q - first_charge for _, q in series])) / mass
 
 
 def read_runs(path):
@@ -75,14 +96,13 @@ def read_runs(path):
         try:
             if len(words) == 2:
                 runs.append((float(words[1]), float(words[0])))
-            elif len(words) == 3:
-                mass = float(words[2])
+            elif len(words) > 2:
+                mass = float(words[-1])
                 if not mass > 0:
-                    raise Fault("a mass of %s kg is not positive" % words[2])
-                runs.append((charge_of_run(path.parent / words[1], mass), float(words[0])))
+                    raise Fault("a mass of %s kg is not positive" % words[-1])
+                runs.append((charge_of_run([path.parent / word for word in words[1:-1]], mass), float(words[0])))
             else:
-                raise Fault("found %d words; allowed are 2 (Gamma, charge per mass) or 3 (Gamma, charge.dat, mass)"
-                            % len(words))
+                raise Fault("found one word; allowed are 2 (Gamma, charge per mass) or 3 and more (Gamma, charge.dat ..., mass)")
         except (Fault, ValueError, OSError, IndexError) as fault:
             faults.append("%s: line %d: %s" % (path, number, fault))
     if not faults and len({charge for charge, _ in runs}) < 2:

@@ -28,8 +28,10 @@ class CalibrateGamma(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         return [float(line.split()[1]) for line in done.stdout.splitlines() if not line.startswith("#")], done.stdout
 
-    def charging_run(self, name, limit, tau, end=3.0):
-        rows = ["%.10g %.15g" % (t, 1e-12 + limit * -math.expm1(-t / tau)) for t in (end * n / 60 for n in range(61))]
+    def charging_run(self, name, limit, tau, end=3.0, begin=0.0, first=0.0, last=math.inf):
+        """A run that charges from `begin` on, over `end` seconds; the file holds the times from `first` to `last`."""
+        rows = ["%.10g %.15g" % (t, 1e-12 + limit * -math.expm1(-max(0.0, t - begin) / tau))
+                for t in (begin + end * n / 60 for n in range(-20, 61)) if first - 1e-9 <= t <= last + 1e-9]
         (self.folder / name).write_text("# some words\n# Time total\n" + "\n".join(rows) + "\n")
 
     def test_gamma_is_linear_between_runs_and_exact_at_them(self):
@@ -52,11 +54,37 @@ class CalibrateGamma(unittest.TestCase):
         found, _ = self.gammas("4e5 low.dat 1e-3\n8e5 high.dat 1e-3\n", 4e-5 + 1e-9)
         self.assertAlmostEqual(found[0] / 6e5, 1, delta=1e-5)
 
+    def test_a_run_counts_from_where_its_charging_begins(self):
+        """A bed that first fluidises without charge: its file begins at .5 s, or holds the flat part as well."""
+        self.charging_run("low.dat", 2e-8, 1.1, begin=0.5, first=0.5)
+        self.charging_run("flat.dat", 2e-8, 1.1, begin=0.5)
+        self.charging_run("high.dat", 6e-8, 0.8, begin=10.0, first=10.0)
+        for low in ("low.dat", "flat.dat"):
+            found, _ = self.gammas("4e5 %s 1e-3\n8e5 high.dat 1e-3\n" % low, 4e-5 + 1e-9)
+            self.assertAlmostEqual(found[0] / 6e5, 1, delta=1e-5)
+
+    def test_the_files_of_a_run_that_was_continued_make_one_curve(self):
+        self.charging_run("low.dat", 2e-8, 1.1, begin=0.5, first=0.5)
+        self.charging_run("a.dat", 6e-8, 0.8, begin=0.5, first=0.5, last=1.2)
+        self.charging_run("b.dat", 6e-8, 0.8, begin=0.5, first=1.0, last=2.0)
+        self.charging_run("c.dat", 6e-8, 0.8, begin=0.5, first=2.0)
+        # What the first start found after the time of the second does not count.
+        with open(self.folder / "a.dat", "a", encoding="ascii") as file:
+            file.write("1.3 -5e-8\n1.4 9e-8\n")
+        for files in ("a.dat b.dat c.dat", "c.dat a.dat b.dat"):
+            found, _ = self.gammas("4e5 low.dat 1e-3\n8e5 %s 1e-3\n" % files, 4e-5 + 1e-9)
+            self.assertAlmostEqual(found[0] / 6e5, 1, delta=1e-5)
+
     def test_runs_that_can_not_be_read_are_listed_together(self):
         self.charging_run("short.dat", 2e-8, 50.0)
+        (self.folder / "empty.dat").write_text("# Time total\n")
+        (self.folder / "other.dat").write_text("1 2\n")
+        text = self.run_with("4e5\n4e5 empty.dat 1e-3\n4e5 other.dat 1e-3\n", 1e-5).stdout
+        for part in ("line 1: found one word", "line 2: empty.dat has no lines", "line 3: other.dat has no columns Time and total"):
+            self.assertIn(part, text)
         done = self.run_with("4e5 short.dat 1e-3\n4e5 1e-5 0 0 0\n5e5 none.dat 1e-3\n6e5 short.dat -1\n", 1e-5)
         self.assertNotEqual(done.returncode, 0)
-        for part in ("line 1: ", "line 2: found 5 words", "line 3: ", "line 4: a mass of -1 kg is not positive"):
+        for part in ("line 1: ", "line 2: a mass of 0 kg is not positive", "line 3: ", "line 4: a mass of -1 kg is not positive"):
             self.assertIn(part, done.stdout)
         self.assertIn("at least two runs", self.run_with("4e5 1e-5\n", 1e-5).stdout)
 
