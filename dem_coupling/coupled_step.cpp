@@ -3,6 +3,7 @@
 
 #include "dem_coupling/charging/compensated_sum.hpp"
 #include "dem_coupling/field_frequency.hpp"
+#include "dem_coupling/near_field_refresh.hpp"
 #include "dem_coupling/particle_faults.hpp"
 
 #include <algorithm>
@@ -62,8 +63,11 @@ void CoupledStep::updateField()
                   "DEM checkpoint makes this: continue from a time that has both");
         }
     }
-    const PhaseTimer timer(times_, Phase::dem);
-    dem_.setField(particles_, field_.field, field_.ownResponse);
+    {
+        const PhaseTimer timer(times_, Phase::dem);
+        dem_.setField(particles_, field_.field, field_.ownResponse);
+    }
+    summary_.heldFrequency = near_ ? near_->heldFrequency(particles_, field_.field) : 0;
 }
 
 void CoupledStep::bringWallCharges()

@@ -21,6 +21,7 @@ struct StepSummary {
     double largestCharge = 0;   ///< [C]
     double largestField = 0;    ///< [V/m]
     double fieldFrequency = 0;  ///< [1/s], see fieldFrequency()
+    double heldFrequency = 0;   ///< [1/s], with a near field that follows: of what stays held, see heldFieldFrequency()
     double energy = 0;          ///< electrostatic [J], see ParticleField::energy; NaN when the method has no potential
     double kineticEnergy = 0;   ///< translational [J]
     std::int64_t excludedCount = 0;  ///< particles outside the mesh
@@ -35,6 +36,10 @@ public:
 
     /// Where insulating walls keep their charge; before start(), outlives this.
     void setWallCharges(WallChargePort* walls) { walls_ = walls; }
+
+    /// What follows the particles between two updates, for StepSummary::heldFrequency; before start(), outlives this. The DEM
+    /// must have it.
+    void setNearField(const NearFieldRefresh* near) { near_ = near; }
 
     /// Something that may change the charges of the particles, in `particles` and in the DEM alike, in every step between the DEM
     /// steps and the field. What it gives to insulating walls must be on their faces afterwards. Returns whether it did.
@@ -75,6 +80,7 @@ private:
     StepSummary summary_;
     ChargeBooks books_;
     WallChargePort* walls_ = nullptr;
+    const NearFieldRefresh* near_ = nullptr;
     ChargeChange changeCharges_;
     std::vector<WallCharge> wallCharges_;
     double wallFaceCharge_ = 0;   ///< [C]

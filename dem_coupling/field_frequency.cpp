@@ -16,4 +16,16 @@ double fieldFrequency(const DemParticles& particles, const Points& field)
     return std::sqrt(2 * largest);
 }
 
+double heldFieldFrequency(const DemParticles& particles, const Points& heldField, double reach, double cloudGradient,
+                          double largestCharge)
+{
+    double largest = 0;
+    for (Index row = 0; row < particles.size(); ++row) {
+        const double strength = std::sqrt(heldField.row(row).square().sum());
+        const double gradient = cloudGradient * largestCharge + strength / reach;
+        largest = std::max(largest, std::fabs(particles.charge[row]) * gradient / particles.mass[row]);
+    }
+    return std::sqrt(2 * largest);
+}
+
 }  // namespace him

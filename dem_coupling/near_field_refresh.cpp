@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/near_field_refresh.hpp"
 
+#include "dem_coupling/field_frequency.hpp"
 #include "dem_coupling/field_methods/conducting_planes.hpp"
 #include "dem_coupling/field_methods/shared_steps.hpp"
 #include "electrostatics/constants.hpp"
@@ -82,6 +83,16 @@ void NearFieldRefresh::compute(const DemParticles& particles, Points& field, Poi
     }
     sumPairs(sums_.pairs, failure, particles, points_.position, communicator_);
     field = sums_.field;
+}
+
+double NearFieldRefresh::heldFrequency(const DemParticles& particles, const Points& field) const
+{
+    double largestCharge = particles.size() > 0 ? particles.charge.abs().maxCoeff() : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &largestCharge, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+    const double cloudGradient = cloud_.fieldCoefficient(0) / (4.0 * pi * permittivity_);
+    double frequency = heldFieldFrequency(particles, field - sums_.field, reach_, cloudGradient, largestCharge);
+    MPI_Allreduce(MPI_IN_PLACE, &frequency, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+    return frequency;
 }
 
 double NearFieldRefresh::heightAbovePlanes(const Vector3& point) const

@@ -34,6 +34,10 @@ public:
     /// planes). Collective. Throws std::runtime_error, the same on every rank, when two particles share a position.
     void compute(const DemParticles& particles, Points& field, Points& ownImages);
 
+    /// heldFieldFrequency() [1/s] over all ranks, of the field of an update less what the last compute() found. `particles` and `field`
+    /// are those of that update. Collective.
+    double heldFrequency(const DemParticles& particles, const Points& field) const;
+
 private:
     /// Adds the images that can reach a particle to the sources, and their field on their owners to ownImages.
     void addImages(Index particles, Points& ownImages);

@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The collapsing cloud through himFoam: fields of a mesh, held for several DEM steps, in a grounded cube."""
 
-import os
-import pathlib
-import subprocess
-
 import numpy as np
 
-from scenes import NO_CHARGING, RADIUS, SPHERE, STATE, cloud, coulomb_in_cube, dem, head, kinetic, springs, states, time_step
+import foam
+from scenes import NO_CHARGING, RADIUS, SPHERE, cloud, coulomb_in_cube, dem, kinetic, springs, states, time_step
 
 SIDE, CELLS = 0.012, 12         # [m], cells of one sphere's diameter
 STRONG = 3e6                    # surface field at which air breaks down [V/m]
@@ -25,7 +22,6 @@ METHODS = {
     "him": "fieldMethod him; himCoeffs { nearCutoff 3e-3; }",
 }
 
-HEADER = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
 BLOCK_MESH = f"""
 vertices ((0 0 0) ({SIDE} 0 0) ({SIDE} {SIDE} 0) (0 {SIDE} 0) (0 0 {SIDE}) ({SIDE} 0 {SIDE}) ({SIDE} {SIDE} {SIDE}) (0 {SIDE} {SIDE}));
 blocks (hex (0 1 2 3 4 5 6 7) ({CELLS} {CELLS} {CELLS}) simpleGrading (1 1 1));
@@ -38,50 +34,18 @@ boundaryField { sides { type fixedValue; value uniform 0; } }
 """
 
 
-def control(step, every, updates):
-    return f"""
-application himFoam;
-startFrom startTime; startTime 0; stopAt endTime;
-endTime {updates*every*step!r}; deltaT {every*step!r};
-writeControl timeStep; writeInterval {updates + 1};
-writeFormat ascii; writePrecision 12; timePrecision 12; runTimeModifiable false;
-"""
-
-
-def script(step, every_frame):
-    half = SIDE/2 + RADIUS
+def script(step):
     text = dem.script_head(((-RADIUS, SIDE + RADIUS),)*3, step, SPHERE, SPHERE, 1.0, 0.5*RADIUS)
-    assert head(half, SHARE)        # the same materials as in the scenes without a mesh
     text += "".join(dem.wall_line(name, words) for name, words in SIDES.items()) + NO_CHARGING
-    text += dem.spheres(cloud(4, 1.6, STRONG, centre=(SIDE/2,)*3), RADIUS, SPHERE["density"])
-    text += f"dump out all custom {every_frame} out.dump id {' '.join(STATE)}\n"
-    return text + f'dump_modify out format "%d {" ".join(["%.17g"]*len(STATE))}" sort id\n'
+    return text + dem.spheres(cloud(4, 1.6, STRONG, centre=(SIDE/2,)*3), RADIUS, SPHERE["density"])
 
 
 def run(folder, entries, every, steps, step):
     """Frames of a run of `steps` DEM steps with a field update every `every` steps."""
-    case = pathlib.Path(folder)
-    files = {
-        "system/controlDict": ("dictionary", control(step, every, steps//every)),
-        "system/blockMeshDict": ("dictionary", BLOCK_MESH),
-        "0/electricPotential": ("volScalarField", POTENTIAL),
-        "constant/electrostaticProperties": ("dictionary", entries + "\nfieldError { active no; }\n"),
-        "constant/couplingProperties": ("dictionary", 'demScript "DEM/in.cloud";\nwalls { '
-                                        + " ".join(f"{name} sides;" for name in SIDES) + " }\nlogInterval 1000000; chargeInterval 1000000;\n"),
-    }
-    for name, (kind, text) in files.items():
-        (case/name).parent.mkdir(parents=True, exist_ok=True)
-        (case/name).write_text(HEADER.format(kind, pathlib.Path(name).name) + text)
-    (case/"DEM").mkdir(exist_ok=True)
-    (case/"DEM/in.cloud").write_text(script(step, steps//FRAMES))
-    for program in (["blockMesh"], ["himFoam"]):
-        with open(case/f"log.{program[0]}", "w") as log:
-            if subprocess.run([*program, "-case", folder], stdout=log, stderr=subprocess.STDOUT, env=os.environ).returncode:
-                raise SystemExit(f"{program[0]} stopped; see {folder}/log.{program[0]}")
-    frames = []
-    for block in (case/"out.dump").read_text().split("ITEM: TIMESTEP")[1:]:
-        rows = [row.split() for row in block.split("ITEM: ATOMS")[1].splitlines()[1:]]
-        frames.append({int(row[0]): dict(zip(STATE, map(float, row[1:]))) for row in rows})
+    frames, _ = foam.run(folder, entries, script(step), steps//FRAMES, foam.control(step, every, steps//every),
+                         " ".join(f"{name} sides;" for name in SIDES),
+                         {"system/blockMeshDict": ("dictionary", BLOCK_MESH), "0/electricPotential": ("volScalarField", POTENTIAL)},
+                         ("blockMesh", "himFoam"))
     return states(frames)
 
 

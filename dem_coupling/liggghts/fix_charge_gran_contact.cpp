@@ -2,6 +2,7 @@
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 
 #include "dem_coupling/liggghts/charge_gran_contact_options.hpp"
+#include "dem_coupling/liggghts/find_fix.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 #include "electrostatics/constants.hpp"
 #include "electrostatics/parameters/impact_area.hpp"
@@ -10,6 +11,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_contact_history.h"
 #include "fix_property_global.h"
 #include "force.h"
 #include "modify.h"
@@ -38,13 +40,28 @@ LAMMPS_NS::PairGran* granularPair(LAMMPS_NS::LAMMPS* lmp)
     return dynamic_cast<LAMMPS_NS::PairGran*>(lmp->force->pair_match("gran", 0));
 }
 
+/// Whether the contacts of this script have room for a value that no fix asks for: an earlier charging fix had asked for it, and
+/// LIGGGHTS keeps the room that it made at the first `run`.
+bool hasSpareHistory(LAMMPS_NS::LAMMPS* lmp)
+{
+    LAMMPS_NS::PairGran* pair = granularPair(lmp);
+    if (!pair || !pair->get_fix_history()) {
+        return false;
+    }
+    int asked = pair->dnum_pair();
+    for (int i = 0; i < lmp->modify->nfix; ++i) {
+        asked += lmp->modify->fix[i] ? lmp->modify->fix[i]->n_history_extra() : 0;
+    }
+    return pair->get_fix_history()->get_dnum() > asked;
+}
+
 }  // namespace
 
 bool FixChargeGranContact::hosted = false;
 
 FixChargeGranContact* FixChargeGranContact::find(LAMMPS_NS::LAMMPS* lmp)
 {
-    return static_cast<FixChargeGranContact*>(lmp->modify->find_fix_style("charge/gran/contact", 0));
+    return findFix<FixChargeGranContact>(lmp);
 }
 
 // ---------------------------------------------------------------------- script
@@ -87,8 +104,9 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
     } catch (const std::invalid_argument& wrong) {
         error->fix_error(FLERR, this, wrong.what());
     }
+    roomInHistory_ = hasSpareHistory(lmp);
     const LAMMPS_NS::PairGran* pair = granularPair(lmp);
-    if (recorder_.pairs.keepsWithin() && pair && pair->get_fix_history()) {
+    if (recorder_.pairs.keepsWithin() && pair && pair->get_fix_history() && !roomInHistory_) {
         error->fix_error(
             FLERR, this,
             "'update frozen' keeps a value in every contact, for which LIGGGHTS makes room at the first 'run'. "
@@ -147,7 +165,7 @@ void FixChargeGranContact::init()
 int FixChargeGranContact::n_history_extra()
 {
     LAMMPS_NS::PairGran* pair = granularPair(lmp);
-    return recorder_.pairs.keepsWithin() && pair && pair->is_history() ? 1 : 0;
+    return (recorder_.pairs.keepsWithin() || roomInHistory_) && pair && pair->is_history() ? 1 : 0;
 }
 
 bool FixChargeGranContact::history_args(char** args)

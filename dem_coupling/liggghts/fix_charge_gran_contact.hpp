@@ -73,7 +73,8 @@ public:
     void init() override;
     void end_of_step() override;
     /// One more value per pair contact under `update frozen`: the charge it has moved towards the lower tag. Contacts of others
-    /// do without, since history is read and written in every step.
+    /// do without, since history is read and written in every step, unless an earlier charging fix made room for it: LIGGGHTS
+    /// stops at the next `run` when contacts have more room than is asked for.
     int n_history_extra() override;
     bool history_args(char** args) override;
     void post_run() override;
@@ -121,6 +122,7 @@ private:
     bool arrivals_ = false;     ///< some row is not booked yet
     bool enabled_;
     bool stopped_ = false;      ///< the host holds the charges
+    bool roomInHistory_ = false;  ///< contacts have room for a value of ours from before this fix
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;
     std::vector<double> restartedToWall_;  ///< from a restart file, until all of its walls are defined

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/liggghts/fix_constrain_plane.hpp"
 
+#include "dem_coupling/liggghts/find_fix.hpp"
+
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
-#include "modify.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -86,7 +87,7 @@ void FixConstrainPlane::readWords(const std::vector<std::string>& words)
 
 const FixConstrainPlane* FixConstrainPlane::find(LAMMPS_NS::LAMMPS* lmp)
 {
-    return static_cast<FixConstrainPlane*>(lmp->modify->find_fix_style("constrain/plane", 0));
+    return findFix<FixConstrainPlane>(lmp);
 }
 
 std::string FixConstrainPlane::description() const

@@ -2,6 +2,7 @@
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 
 #include "dem_coupling/charging/charge_transfer.hpp"
+#include "dem_coupling/liggghts/find_fix.hpp"
 #include "dem_coupling/liggghts/particle_rows.hpp"
 #include "dem_coupling/near_field_refresh.hpp"
 
@@ -9,7 +10,6 @@
 #include "comm.h"
 #include "error.h"
 #include "memory.h"
-#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -89,12 +89,7 @@ FixCoupleCfdEfield::~FixCoupleCfdEfield()
 
 FixCoupleCfdEfield* FixCoupleCfdEfield::find(LAMMPS_NS::LAMMPS* lmp)
 {
-    for (int i = 0; i < lmp->modify->nfix; ++i) {
-        if (auto* field = dynamic_cast<FixCoupleCfdEfield*>(lmp->modify->fix[i])) {
-            return field;
-        }
-    }
-    return nullptr;
+    return findFix<FixCoupleCfdEfield>(lmp);
 }
 
 void FixCoupleCfdEfield::setField(const Points& field, const Points& ownResponse)

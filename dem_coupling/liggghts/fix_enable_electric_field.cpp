@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/liggghts/fix_enable_electric_field.hpp"
 
+#include "dem_coupling/liggghts/find_fix.hpp"
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 
@@ -78,7 +79,7 @@ EnableElectricFieldOptions readEnableElectricFieldOptions(const std::vector<std:
 
 FixEnableElectricField* FixEnableElectricField::find(LAMMPS_NS::LAMMPS* lmp)
 {
-    return static_cast<FixEnableElectricField*>(lmp->modify->find_fix_style("enable_electric_field", 0));
+    return findFix<FixEnableElectricField>(lmp);
 }
 
 FixEnableElectricField::FixEnableElectricField(LAMMPS_NS::LAMMPS* liggghts, int narg, char** arg)

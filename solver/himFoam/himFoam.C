@@ -97,6 +97,7 @@ void run(scene& s, MPI_Comm communicator)
     const auto nearField = NearFieldRefresh::create(s.settings.field, s.poisson.get(), *s.dem, communicator, times);
     CoupledStep step(*s.dem, *method, communicator, times);
     step.setWallCharges(s.insulatingWalls.get());
+    step.setNearField(nearField.get());
     std::optional<chargeTable> charge;
     if (s.settings.electrostatics) {
         charge.emplace(runTime, s.dem->walls(), step.hasInsulatingWalls());
@@ -116,8 +117,8 @@ void run(scene& s, MPI_Comm communicator)
     const auto statistics = statisticsTables::create(runTime, s.settings.statistics, s.statisticsRegions, *s.dem,
                                                      s.dem->charging() && !s.settings.fixedUniformCharge,
                                                      pressureDropOf(s, gas ? &*gas : nullptr), communicator);
-    const long heldSteps = nearField ? s.settings.field.nearField.interval : s.demSteps;
-    runReport report(runTime, times, s.settings.logInterval, static_cast<double>(heldSteps) * s.dem->timeStep());
+    runReport report(runTime, times, s.settings.logInterval,
+                     static_cast<double>(s.settings.field.nearField.interval) * s.dem->timeStep());
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     if (s.settings.fixedUniformCharge) {
@@ -125,6 +126,7 @@ void run(scene& s, MPI_Comm communicator)
         printUniformCharge(replaceByMean(*s.dem, communicator));
     }
     step.start();
+    report.warnOfHeldField(step.summary());
     printOwnCellField(*method, step.particles());
     if (charge) {
         charge->write(runTime.value(), step);

@@ -59,11 +59,11 @@ std::array<double, phases> secondsOf(const PhaseTimes& times)
 
 }  // namespace
 
-runReport::runReport(const Foam::Time& runTime, const PhaseTimes& times, long logInterval, double heldTime)
+runReport::runReport(const Foam::Time& runTime, const PhaseTimes& times, long logInterval, double nearTime)
     : runTime_(runTime),
       times_(times),
       logInterval_(logInterval),
-      heldTime_(heldTime),
+      nearTime_(nearTime),
       firstTime_(runTime.value()),
       start_(Clock::now())
 {
@@ -96,19 +96,37 @@ void runReport::beginStep()
     }
 }
 
+void runReport::warnOfHeldPart(HeldPart& part, double frequency, double time)
+{
+    const double phase = time * frequency;
+    // Not an error: the frequency is an upper estimate. A strong field of electrodes or of far charges does no harm when it is held.
+    const auto passes = [&](double limit) { return phase > limit && part.phase <= limit; };
+    const auto advice = [&](double limit) {
+        return " Use at most " + formatted("%.2g", limit / frequency) + part.remedy + ".";
+    };
+    const std::string held = "WARNING: " + std::string(part.name) + " is held for " + formatted("%.3g", time)
+                             + " s, omega T = " + formatted("%.2g", phase) + ", above ";
+    if (passes(largestFieldPhase)) {
+        Info << held.c_str() << largestFieldPhase
+             << ", the limit of stability if its largest value is that of particles in contact: unlike charges that "
+                "circle each other are torn apart, and clouds win energy without end."
+             << advice(driftingFieldPhase).c_str() << endl;
+    } else if (passes(driftingFieldPhase)) {
+        Info << held.c_str() << driftingFieldPhase
+             << ": charged particles move as far in this time as it takes to change their force. Approaching charges "
+                "lose energy and circling ones win some."
+             << advice(driftingFieldPhase).c_str() << endl;
+    }
+    part.phase = std::max(part.phase, phase);
+}
+
 void runReport::warnOfHeldField(const StepSummary& summary)
 {
-    const double phase = heldTime_ * summary.fieldFrequency;
-    if (phase > largestFieldPhase && largestPhase_ <= largestFieldPhase) {
-        Info << "WARNING: the field of near particles is held for " << heldTime_
-             << " s, in which charged particles can move as far as it takes to change their force: omega T = "
-             << formatted("%.2g", phase).c_str() << ", above " << largestFieldPhase
-             << ". Approaching charges lose energy and circling ones win some. Use a deltaT of at most "
-             << formatted("%.2g", largestFieldPhase / summary.fieldFrequency).c_str()
-             << " s, or nearField in constant/electrostaticProperties with an interval that is shorter than that."
-             << endl;
+    const double update = runTime_.deltaTValue();
+    warnOfHeldPart(whole_, summary.fieldFrequency, nearTime_ > 0 ? nearTime_ : update);
+    if (nearTime_ > 0) {
+        warnOfHeldPart(far_, summary.heldFrequency, update);
     }
-    largestPhase_ = std::max(largestPhase_, phase);
 }
 
 void runReport::endStep(const CoupledStep& step)
@@ -162,7 +180,10 @@ void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Co
     line("ranks", std::to_string(ranks));
     line("shares of time", shares(seconds, wall));
     line("particles", std::to_string(step.summary().particles));
-    line("near field held, largest omega T", formatted("%.2g", largestPhase_));
+    line("near field held, largest omega T", formatted("%.2g", whole_.phase));
+    if (nearTime_ > 0) {
+        line("far field held, largest omega T", formatted("%.2g", far_.phase));
+    }
     line("total charge [C]", formatted("%.6g", step.summary().totalCharge));
     line("contacts with particles, walls",
          formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));

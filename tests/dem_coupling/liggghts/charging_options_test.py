@@ -98,6 +98,33 @@ class Options(unittest.TestCase):
         self.assertNotEqual(run.code, 0)
         self.assertIn("Write this fix before it", run.out)
 
+    def test_a_fix_written_again_between_two_runs_goes_on_with_its_own_law(self):
+        # Two spheres meet; the second charging fix takes over before they touch, or in mid-contact. Each law moves a share of the charge
+        # difference that depends on the motion alone, so that after the change the difference falls by the same factor as without.
+        pair = [(-1.6e-3, 0.0, 0.0, 0.5, 0.0, 0.0, 1e-10), (1.6e-3, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0)]
+        fix = "fix tribo all charge/gran/contact pair 1 1 gamma 0 kappa 50 pair 1 2 none pair 2 2 none update "
+
+        def differences(first, second, before, unfix=""):
+            run = Run(script(pair, "", fix + first, step=STEP, after=f"run {before}\n{unfix}{fix}{second}\n"), 350, dump_every=before)
+            self.assertEqual(run.code, 0, run.out[-1500:])
+            return [frame[1]["q"] - frame[2]["q"] for frame in (run.frames[0], run.last)]
+
+        def unchanged(law, before):
+            run = Run(script(pair, "", fix + law, step=STEP, after=f"run {before}\n"), 350, dump_every=before)
+            return [frame[1]["q"] - frame[2]["q"] for frame in (run.frames[0], run.last)]
+
+        for before in (5, 50):
+            updated, frozen = unchanged("updated", before), unchanged("frozen", before)
+            self.assertEqual(before == 50, updated[0] != frozen[0], "fifty steps reach into the contact, five do not")
+            self.assertNotEqual(updated[1], frozen[1])
+            for unfix in ("", "unfix tribo\n"):
+                with self.subTest(before=before, unfix=unfix):
+                    self.assertEqual(differences("updated", "updated", before, unfix), updated)
+                    self.assertEqual(differences("frozen", "frozen", before, unfix), frozen)
+                    mixed = differences("frozen", "updated", before, unfix)
+                    self.assertEqual(mixed[0], frozen[0])
+                    self.assertAlmostEqual(mixed[1] / mixed[0] / (updated[1] / updated[0]), 1, delta=1e-12)
+
     def test_frozen_warns_above_one_half_and_overshoots_as_the_law_says(self):
         x = self.exponent("") * 1e3 / KAPPA
         run = impact(f"pair 1 2 gamma {gamma_of(SATURATION)!r} kappa 1e3 update frozen")
