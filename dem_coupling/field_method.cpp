@@ -141,6 +141,18 @@ bool FieldMethod::needsCutoff(const std::string& name)
     return get(name).needsCutoff;
 }
 
+bool FieldMethod::knowsPoints(const std::string& name)
+{
+    return get(name).name == "pairwiseSum" || name == "p3m";
+}
+
+std::string FieldMethod::noPointsText(const std::string& name)
+{
+    return "atContactPoint needs the field of the others where no particle's centre is, and " + name
+           + " gives fields at centres only. pairwiseSum and p3m have it; with " + name
+           + " use centre (S, the default)";
+}
+
 Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* mesh, const Box& demBox,
                               const std::array<bool, 3>& periodic)
 {

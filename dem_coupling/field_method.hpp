@@ -4,6 +4,7 @@
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/field_settings.hpp"
 #include "dem_coupling/phase_times.hpp"
+#include "dem_coupling/point_field.hpp"
 #include "dem_coupling/poisson_mesh.hpp"
 
 #include <memory>
@@ -44,6 +45,10 @@ public:
     static const std::vector<std::string>& names();
     static bool needsMesh(const std::string& name);
     static bool needsCutoff(const std::string& name);
+    /// Whether the method can give the field at contact points.
+    static bool knowsPoints(const std::string& name);
+    /// Why `wallField atContactPoint` is refused with this method.
+    static std::string noPointsText(const std::string& name);
 
     /// Everything that is wrong with these settings: unknown name, cutoff not positive, below the largest cell diagonal
     /// or above a period, periodic box where the method has none. Not collective.
@@ -70,6 +75,13 @@ public:
         static_cast<void>(particles);
         return std::nullopt;
     }
+
+    /// The field at contact points; null where knowsPoints() of its name is false.
+    virtual PointField* pointField() { return nullptr; }
+
+    /// What charging sees of the walls' response to a particle's own charge in spite of ParticleField::ownResponse, in words; empty
+    /// where it sees none, or where the settings alone tell. After the first compute().
+    virtual std::string ownResponseText() const { return {}; }
 
     /// See DemPort::setPartnerCutoff.
     virtual double partnerCutoff() const = 0;

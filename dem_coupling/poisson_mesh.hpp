@@ -76,6 +76,9 @@ public:
         virtual ~Kept() = default;
     };
     virtual std::unique_ptr<Kept> keep() const { return nullptr; }
+    /// The next solve starts from nothing, so that its result does not depend on the solves before it. No line of the log tells of
+    /// solves from now to restore().
+    virtual void forgetPotential() {}
     /// Collective.
     virtual void restore(const Kept* kept) { static_cast<void>(kept); }
 

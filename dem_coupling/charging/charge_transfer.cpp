@@ -173,7 +173,9 @@ void ChargeTransfer::move(const DemRows& rows, const GrowingPairs& pairs,
         }
         const bool seesOthers = wallField_ == WallContactField::total && rows.held.rows;
         double fieldNormal = 0;
-        if (seesOthers) {
+        if (seesOthers && atContactPoint_) {
+            fieldNormal = contact.fieldNormal;
+        } else if (seesOthers) {
             // Gamma is calibrated without the walls' response to the particle's own charge (R17), so it is left out.
             const double* held = rows.held.rows[i];
             fieldNormal = dot(held, contact.normal) - dot(held + HeldField::ownResponse, contact.normal);

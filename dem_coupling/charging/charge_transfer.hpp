@@ -18,6 +18,7 @@ namespace him {
 /// and the share of the field that the particle's own images and induced charge make [V/m].
 struct HeldField {
     static constexpr int width = 10;
+    static constexpr int position = 3;     ///< first of its three columns
     static constexpr int ownResponse = 7;  ///< first of its three columns
     const double* const* rows = nullptr;  ///< null when the scene has no field
 };
@@ -44,6 +45,10 @@ public:
 
     void setPermittivity(double permittivity);
     void setWallContactField(WallContactField field) { wallField_ = field; }
+    WallContactField wallContactField() const { return wallField_; }
+    /// Whether wall contacts take E_other of GrowingWallContact in place of the held field at the particle's centre.
+    void setAtContactPoint(bool atPoint) { atContactPoint_ = atPoint; }
+    bool atContactPoint() const { return atContactPoint_; }
     void setUpdate(WithinContact update) { update_ = update; }
     /// Whether the touching wall's image of the particle opposes charging too. It doubles the own field at the contact.
     void setOwnImage(bool included) { ownFieldFactor_ = included ? 2 : 1; }
@@ -107,6 +112,7 @@ private:
     double permittivity_ = 0;
     double coulomb_ = 0;  ///< 1/(4 pi eps) [m/F]
     WallContactField wallField_ = WallContactField::total;
+    bool atContactPoint_ = false;
     double partnerCutoff_ = std::numeric_limits<double>::infinity();
     void (*shorten_)(void*, double*) = nullptr;
     void* box_ = nullptr;

@@ -16,6 +16,7 @@ struct GrowingWallContact {
     double normal[3];  ///< from the particle into the wall
     double area = 0;   ///< now [m2]
     double* moved = nullptr;  ///< charge that this contact has given to the particle since it began [C]
+    double fieldNormal = 0;   ///< E_other . n at the contact point, where it is asked for [V/m]
 };
 
 /// Contact areas of the last step per (particle, wall, direction). LIGGGHTS keeps contact history per triangle and does

@@ -5,6 +5,7 @@
 #include "dem_coupling/field_methods/shared_steps.hpp"
 
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace him {
@@ -95,7 +96,12 @@ void Him::extendOwnCellTable(Index particles)
     std::vector<int> counts(static_cast<std::size_t>(ranks));
     const int mine = static_cast<int>(fresh.size());
     MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator_);
-    // One coulomb: beside its field that of any electrode vanishes.
+    if (std::accumulate(counts.begin(), counts.end(), 0) == 0) {
+        return;
+    }
+    // One coulomb: beside its field that of any electrode vanishes. What is left of it must not be the start of the run's own
+    // solve, which would take a share of it for the field of small charges.
+    const auto kept = mesh_.keep();
     for (int turn = 0; turn < ranks; ++turn) {
         for (int n = 0; n < counts[static_cast<std::size_t>(turn)]; ++n) {
             cellCharge_.setZero(mesh_.cellCount());
@@ -104,12 +110,16 @@ void Him::extendOwnCellTable(Index particles)
             if (here) {
                 cellCharge_[static_cast<Index>(cell)] = 1;
             }
+            mesh_.forgetPotential();
             mesh_.solve(cellCharge_);
             if (here) {
                 ownCellField_[cell] = mesh_.electricField(static_cast<Index>(cell));
                 ownCellKnown_[cell] = true;
             }
         }
+    }
+    if (kept) {
+        mesh_.restore(kept.get());
     }
 }
 

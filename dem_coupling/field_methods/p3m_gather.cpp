@@ -13,7 +13,9 @@ void P3m::gatherAtTargets()
     const PhaseTimer timer(times_, Phase::gather);
     const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
     const double ownPotential = coulombConstant * cloud_.potential(0);
-    const bool ownImages = settings_.ownResponse && planes_.empty();
+    const bool ownImages = settings_.ownResponse && planes_.empty() && !ownTable_;
+    // In cells of a particle's size and more the mesh gives too little back to matter.
+    const bool ownCloud = settings_.ownResponse && fineCells_ && !ownTable_;
     LocalPolynomial polynomial;
     Index fitted = -1;
     for (Index target = 0; target < sources_.targets; ++target) {
@@ -28,11 +30,18 @@ void P3m::gatherAtTargets()
         polynomial.evaluate(place, value, gradient);
         atTargets_.row(target).head(3) -= gradient.transpose().array();
         atTargets_(target, 3) += value - ownPotential * sources_.charge[target];
-        if (settings_.p3m.selfTerm) {
-            atTargets_.row(target).head(3) += ownCloudGradient(target).transpose().array();
+        if (settings_.p3m.selfTerm || ownCloud) {
+            const Vector3 taken = ownCloudGradient(target);
+            if (settings_.p3m.selfTerm) {
+                atTargets_.row(target).head(3) += taken.transpose().array();
+            } else {
+                atTargets_.row(target).tail(3) -= taken.transpose().array();
+            }
         }
         if (ownImages) {
             addOwnImages(target);
+        } else if (ownTable_ && sources_.charge[target] != 0) {
+            atTargets_.row(target).tail(3) = ownFieldFromTable(target).transpose().array();
         }
     }
 }
@@ -93,6 +102,24 @@ void P3m::addOwnImages(Index target)
         const double scale = sources_.images[n].sign * sources_.charge[target] / (4.0 * pi * settings_.permittivity);
         atTargets_.row(target).tail(3) += scale * (r / std::pow(r.norm(), 3)).transpose().array();
     }
+}
+
+/// All that this method makes of a target's own charge at the target, selfTerm included [V/m].
+Vector3 P3m::ownFieldFromTable(Index target)
+{
+    const auto t = static_cast<std::size_t>(target);
+    deposit_.depositOne(sources_, target, ownCharge_);
+    Vector3 field = -ownTable_->gradient(sources_, target, ownCharge_, cloud_, settings_.permittivity);
+    const double scale = sources_.charge[target] / (4.0 * pi * settings_.permittivity);
+    for (auto n = static_cast<std::size_t>(sources_.firstImage[t]);
+         n < static_cast<std::size_t>(sources_.firstImage[t + 1]); ++n) {
+        const Vector3 r = sources_.position.row(target).matrix().transpose() - sources_.images[n].position;
+        field += sources_.images[n].sign * scale * cloud_.shortRangeFieldCoefficient(r.norm()) * r;
+    }
+    if (settings_.p3m.selfTerm) {
+        field += ownCloudGradient(target);
+    }
+    return field;
 }
 
 }  // namespace him

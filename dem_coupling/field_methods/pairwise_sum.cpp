@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/field_methods/pairwise_sum.hpp"
 
+#include "dem_coupling/field_methods/contact_points.hpp"
 #include "dem_coupling/field_methods/shared_steps.hpp"
+#include "electrostatics/constants.hpp"
 #include "electrostatics/near_field.hpp"
 
 #include <limits>
@@ -81,6 +83,34 @@ void PairwiseSum::compute(const DemParticles& particles, ParticleField& result)
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
+}
+
+void PairwiseSum::fieldOfOthers(const DemParticles& sources, const Points& points, const std::vector<int>& leftOut,
+                                Points& field)
+{
+    ContactPoints all(points, leftOut, communicator_);
+    if (all.size() > 0 && settings_.pairwiseSum.images) {
+        walls_.make(sources.position, sources.charge, images_);
+    }
+    const double coulombConstant = 1.0 / (4.0 * pi * settings_.permittivity);
+    for (Index n = 0; n < all.size(); ++n) {
+        const auto add = [&](Index owner, const Points& places, const Scalars& charges, Index row) {
+            const Vector3 r = all.place(n) - places.row(row).matrix().transpose();
+            const double distance = r.norm();
+            if (sources.tag[static_cast<std::size_t>(owner)] != all.leftOut(n) && distance > 0
+                && distance <= settings_.pairwiseSum.truncation) {
+                all.add(n, coulombConstant * charges[row] / (distance * distance * distance) * r);
+            }
+        };
+        for (Index row = 0; row < sources.size(); ++row) {
+            add(row, sources.position, sources.charge, row);
+        }
+        for (Index row = 0; settings_.pairwiseSum.images && row < images_.position.rows(); ++row) {
+            add(images_.owner[static_cast<std::size_t>(row)], images_.position, images_.charge, row);
+        }
+    }
+    all.sum(field);
+    field.rowwise() += settings_.externalField.transpose().array();
 }
 
 }  // namespace him

@@ -33,8 +33,14 @@ public:
                    {"sizeLaw", [this] { readSizeLaw(); }},
                    {"spread", [this] { readSpread(); }},
                    {"update", [this] { options_.update = withinContactByName(words_.word("update")); }},
-                   {"ownImage", [this] { options_.ownImage = words_.oneOf("ownImage", {"excluded", "included"}) == 1; }},
-                   {"wallField", [this] { readWallField(); }},
+                   {"ownImage",
+                    [this] {
+                        options_.ownImage = words_.oneOf("ownImage", {"excluded", "included"}) == 1;
+                    }},
+                   {"wallField",
+                    [this] {
+                        options_.atContactPoint = words_.oneOf("wallField", {"centre", "atContactPoint"}) == 1;
+                    }},
                    {"acceleration", [this] { options_.pairs.setAcceleration(words_.number("acceleration")); }},
                    {"realModulus", [this] { readRealModulus(types_); }},
                    {"relaxationTime", [this] { options_.losses.setRelaxationTime(words_.number("relaxationTime")); }},
@@ -178,15 +184,6 @@ private:
             options_.pairs.setWorkFunctionSpread(type, spread);
         } else {
             complaints_.add("spread", "unknown word '" + what + "'; known: gamma, workFunction, workFunctionEV");
-        }
-    }
-
-    void readWallField()
-    {
-        if (words_.oneOf("wallField", {"centre", "atContactPoint"}) == 1) {
-            complaints_.add("wallField", "atContactPoint is not available: the field is known at the centres of the particles and "
-                                         "not its gradient, so that it can not be carried to the contact point. Use centre (S, the "
-                                         "default); 'ownImage included' adds the touching wall's image at the contact point");
         }
     }
 

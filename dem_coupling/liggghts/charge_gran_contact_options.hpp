@@ -23,6 +23,7 @@ struct ChargeGranContactOptions {
     double curvature = 10;  ///< [degrees]
     WithinContact update = WithinContact::updated;
     bool ownImage = false;
+    bool atContactPoint = false;       ///< where the field of the others is taken at walls
     std::map<int, double> realModuli;  ///< Young's modulus [Pa] by type, where the DEM's is softened
     ChargeLosses losses;
     InitialCharges initial;

@@ -95,6 +95,7 @@ FixChargeGranContact::FixChargeGranContact(LAMMPS_NS::LAMMPS* liggghts, int narg
         transfer_ = ChargeTransfer(std::move(options.pairs), epsilon0);
         transfer_.setUpdate(options.update);
         transfer_.setOwnImage(options.ownImage);
+        transfer_.setAtContactPoint(options.atContactPoint);
         recorder_.groupBit = groupbit;
         recorder_.pairs.keep(true, options.update == WithinContact::frozen);
         losses_ = options.losses;
@@ -300,6 +301,9 @@ void FixChargeGranContact::end_of_step()
         const bool ghosts = comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
         if (ghosts) {
             comm->forward_comm_fix(this);
+        }
+        if (transfer_.atContactPoint() && field_) {
+            findFieldAtContactPoints();
         }
         transfer_.move(rows, recorder_.pairs, growingWallContacts_);
         keepWallCharges();

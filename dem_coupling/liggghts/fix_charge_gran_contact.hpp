@@ -53,6 +53,8 @@ public:
     /// From the hand-over on contacts move no charge and particles lose none; arrivals are still booked.
     void stopCharging() { stopped_ = true; }
     bool losesCharge() const { return losses_.active(); }
+    /// Whether the script wants E_other of wall contacts at the contact point.
+    bool atContactPoint() const { return transfer_.atContactPoint(); }
     /// Switches charging on and opens the books: the charge that is there now has not been inserted.
     void handOver();
     std::string description();
@@ -109,6 +111,8 @@ private:
     std::size_t packRow(int row, double* buffer) const;
     void bookArrivals();
     void keepWallCharges();
+    /// E_other of the growing wall contacts at their contact points. Collective.
+    void findFieldAtContactPoints();
 
     ContactRecorder recorder_;
     ChargeTransfer transfer_;
@@ -133,6 +137,8 @@ private:
     InitialCharges initial_;
     std::map<int, double> realModuli_;
     bool told_ = false;  ///< the description stands in the log
+    Points contactPoints_, fieldAtPoints_;
+    std::vector<int> contactTags_;
 };
 
 }  // namespace him

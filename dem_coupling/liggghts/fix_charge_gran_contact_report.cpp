@@ -25,6 +25,9 @@ std::string FixChargeGranContact::description()
          << (recorder_.reloading == Reloading::counted ? "counted" : "beyondMaximum") << ", curvature " << curvature_
          << " degrees, update " << nameOf(transfer_.update()) << ", own image at walls "
          << (transfer_.ownImage() ? "included" : "excluded") << '\n';
+    if (transfer_.atContactPoint()) {
+        text << "    field of the others at walls: at the contact point\n";
+    }
     if (transfer_.pairs().acceleration() != 1) {
         text << "    ACCELERATED: every charge transfer is multiplied by a = " << transfer_.pairs().acceleration()
              << "; times of charging are not real times\n";

@@ -2,6 +2,8 @@
 // The walls that fix charge/gran/contact charges at, and what each keeps.
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 
+#include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
+
 #include "atom.h"
 #include "error.h"
 
@@ -117,6 +119,28 @@ void FixChargeGranContact::keepWallCharges()
         const Vector3 point(centre[0] + radius * gain.normal[0], centre[1] + radius * gain.normal[1],
                             centre[2] + radius * gain.normal[2]);
         wallCharges_.push_back({point, gain.wall, gain.charge});
+    }
+}
+
+void FixChargeGranContact::findFieldAtContactPoints()
+{
+    const auto contacts = static_cast<Index>(growingWallContacts_.size());
+    contactPoints_.resize(contacts, 3);
+    contactTags_.clear();
+    for (Index n = 0; n < contacts; ++n) {
+        const GrowingWallContact& contact = growingWallContacts_[static_cast<std::size_t>(n)];
+        // Of the position that made the field, as everything else that charging knows of it.
+        const double* centre = field_->held()[contact.particle] + HeldField::position;
+        const double radius = atom->radius[contact.particle];
+        for (int d = 0; d < 3; ++d) {
+            contactPoints_(n, d) = centre[d] + radius * contact.normal[d];
+        }
+        contactTags_.push_back(atom->tag[contact.particle]);
+    }
+    field_->fieldOfOthers(contactPoints_, contactTags_, fieldAtPoints_);
+    for (Index n = 0; n < contacts; ++n) {
+        GrowingWallContact& contact = growingWallContacts_[static_cast<std::size_t>(n)];
+        contact.fieldNormal = fieldAtPoints_.row(n).matrix().dot(Eigen::Map<const Eigen::RowVector3d>(contact.normal));
     }
 }
 

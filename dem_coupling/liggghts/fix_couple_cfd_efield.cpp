@@ -120,6 +120,22 @@ void FixCoupleCfdEfield::setField(const Points& field, const Points& ownResponse
     }
 }
 
+void FixCoupleCfdEfield::fieldOfOthers(const Points& points, const std::vector<int>& leftOut, Points& field)
+{
+    if (!pointField_) {
+        throw std::logic_error("nobody knows the field at contact points");
+    }
+    const Index rows = atom->nlocal;
+    sources_.tag.assign(atom->tag, atom->tag + rows);
+    sources_.position.resize(rows, 3);
+    sources_.charge.resize(rows);
+    for (Index i = 0; i < rows; ++i) {
+        sources_.position.row(i) << held_[i][3], held_[i][4], held_[i][5];
+        sources_.charge[i] = held_[i][6];
+    }
+    pointField_->fieldOfOthers(sources_, points, leftOut, field);
+}
+
 void FixCoupleCfdEfield::setNearField(NearFieldRefresh& near, long interval)
 {
     near_ = &near;

@@ -3,6 +3,7 @@
 
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/liggghts/force_limiter.hpp"
+#include "dem_coupling/point_field.hpp"
 
 #include "fix.h"
 
@@ -28,6 +29,12 @@ public:
     void setField(const Points& field, const Points& ownResponse);
     /// See DemPort::setNearField. Before the first setField().
     void setNearField(NearFieldRefresh& near, long interval);
+    /// Who knows the field at contact points with walls.
+    void setPointField(PointField* field) { pointField_ = field; }
+    bool knowsPoints() const { return pointField_ != nullptr; }
+    /// See PointField::fieldOfOthers(), of the positions and charges that made the held field. Collective; throws
+    /// std::logic_error where nobody knows it.
+    void fieldOfOthers(const Points& points, const std::vector<int>& leftOut, Points& field);
     /// Per row, see HeldField.
     const double* const* held() const { return held_; }
     /// Particles that appeared on this rank since this fix was made.
@@ -62,6 +69,8 @@ private:
     void refreshNearField();
 
     std::int64_t arrivals_ = 0;
+    PointField* pointField_ = nullptr;
+    DemParticles sources_;
     // With setNearField(): the held field and own response less their short-range parts at the last update, per row [V/m].
     static constexpr int farWidth = 6;
     double** far_ = nullptr;

@@ -99,6 +99,15 @@ void FixEfieldHim::checkScene()
                                 "theirs. Write this line below fix "
                                     + std::string(charging->id) + " charge/gran/contact");
     }
+    if (charging && charging->atContactPoint()) {
+        if (options_.wallContactField == WallContactField::self) {
+            complaints.add("wall_contact_field",
+                           "self leaves the field of the others out at walls, so 'wallField atContactPoint' of "
+                           "fix charge/gran/contact has nothing to act on. Take one of them out");
+        } else if (!FieldMethod::knowsPoints(options_.field.method)) {
+            complaints.add("wallField", FieldMethod::noPointsText(options_.field.method));
+        }
+    }
     std::vector<DemWall> walls;
     for (const ListedWall& listed : listWalls(lmp)) {
         walls.push_back(listed.wall);
@@ -112,6 +121,7 @@ void FixEfieldHim::checkScene()
     }
     options_.field.ownResponse = charging != nullptr;
     method_ = FieldMethod::create(options_.field, nullptr, box, periodic, world, times_);
+    setPointField(method_->pointField());
 }
 
 void FixEfieldHim::init()

@@ -234,6 +234,7 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field, c
         command(std::string("fix ") + fieldFixId + " all couple/cfd/efield");
         field_ = static_cast<FixCoupleCfdEfield*>(lmp_->modify->find_fix_id(fieldFixId));
     }
+    field_->setPointField(pointField_);
     if (near_) {
         field_->setNearField(*near_, nearInterval_);
         near_ = nullptr;

@@ -6,6 +6,7 @@
 #include "dem_coupling/liggghts/fix_couple_cfd_drag.hpp"
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 #include "dem_coupling/liggghts/liggghts_screen.hpp"
+#include "dem_coupling/point_field.hpp"
 
 #include "lammps.h"
 
@@ -20,7 +21,7 @@ class FixPropertyAtom;
 namespace him {
 
 /// The DEM side on LIGGGHTS as a library in this process.
-class LiggghtsDem : public DemPort {
+class LiggghtsDem : public DemPort, public PointFieldUser {
 public:
     LiggghtsDem(const DemOptions& options, MPI_Comm communicator);
 
@@ -40,6 +41,8 @@ public:
     void setPermittivity(double permittivity) override;
     void setPartnerCutoff(double cutoff) override;
     void setNearField(NearFieldRefresh& near, long interval) override;
+    bool usesPointField() const override { return charging_ && charging_->atContactPoint(); }
+    void setPointField(PointField& field) override { pointField_ = &field; }
     void allowRemovals(bool allowed) override { removalsAllowed_ = allowed; }
     void chargeParticles() override;
     void handOver() override;
@@ -95,6 +98,7 @@ private:
     std::vector<LAMMPS_NS::FixPropertyAtom*> wallForces_;  ///< per wall fix; empty unless asked for
     LAMMPS_NS::FixPropertyAtom* notes_ = nullptr;          ///< null unless asked for
     int noteColumns_ = 0;
+    PointField* pointField_ = nullptr;
     NearFieldRefresh* near_ = nullptr;  ///< until the field fix is there, which takes it
     long nearInterval_ = 0;
     bool setUpNext_ = false;  ///< the next run() computes the forces of its first step anew

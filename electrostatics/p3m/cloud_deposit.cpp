@@ -151,6 +151,23 @@ void CloudDeposit::addCloudWithoutMoment(const CloudSources& sources, Index row,
     }
 }
 
+void CloudDeposit::add(const CloudSources& sources, Index row, const Surroundings& around)
+{
+    if (around.inexactWall && !around.wallWithoutImage) {
+        addCloudWithoutMoment(sources, row, around.count);
+    } else {
+        addCloud(sources, row, !around.wallWithoutImage);
+    }
+}
+
+void CloudDeposit::depositOne(const CloudSources& sources, Index row, Scalars& charge)
+{
+    const Surroundings& around = table_.of(sources.cell[static_cast<std::size_t>(row)]);
+    loadCells(around);
+    add(sources, row, around);
+    charge = charge_.head(around.count);
+}
+
 void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
 {
     cellCharge.setZero(mesh_.ownCells);
@@ -160,11 +177,7 @@ void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
         const Surroundings& around = table_.of(host);
         loadCells(around);
         for (; row < sources.size() && sources.cell[static_cast<std::size_t>(row)] == host; ++row) {
-            if (around.inexactWall && !around.wallWithoutImage) {
-                addCloudWithoutMoment(sources, row, around.count);
-            } else {
-                addCloud(sources, row, !around.wallWithoutImage);
-            }
+            add(sources, row, around);
         }
         const double* charge = charge_.data();
         for (const RowRange& range : around.cells) {

@@ -20,9 +20,12 @@ public:
 
     /// Charge [C] of the own cells from all sources.
     void deposit(const CloudSources& sources, Scalars& cellCharge);
+    /// Charge [C] that one row with its images gives to each of the cells around its own, in the order of Surroundings::cells.
+    void depositOne(const CloudSources& sources, Index row, Scalars& charge);
 
 private:
     void loadCells(const Surroundings& around);
+    void add(const CloudSources& sources, Index row, const Surroundings& around);
     void addCloud(const CloudSources& sources, Index row, bool normalise);
     void addCloudWithoutMoment(const CloudSources& sources, Index row, Index cells);
 

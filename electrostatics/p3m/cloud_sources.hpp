@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/p3m/cloud.hpp"
 #include "electrostatics/p3m/surroundings.hpp"
 
 #include <vector>
@@ -19,6 +20,10 @@ struct CloudSources {
     Index size() const { return position.rows(); }
     /// Mirrors every charge in the planes around its cell. Fills firstImage and images.
     void makeImages(SurroundingsTable& table, double cloudRadius);
+
+    /// What takes the short-range part of one row and its images out of the mesh potential at a boundary face: on conductors
+    /// minus their potential [C/m], on insulated faces minus their outward gradient [C/m2]; without 1/(4 pi eps).
+    double wallValue(Index row, const BoundaryFaces& faces, Index face, const ChargeCloud& cloud) const;
 };
 
 }  // namespace him

@@ -193,9 +193,7 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
             wallPlanes.push_back(planeOfFace_[static_cast<std::size_t>(face)]);
             if (!exact_[static_cast<std::size_t>(face)]) {
                 around->inexactWall = true;
-                if (face < mesh_.ownFaces) {
-                    around->unmirrored.push_back(face);
-                }
+                (face < mesh_.ownFaces ? around->unmirrored : around->unmirroredCopies).push_back(face);
             }
         }
     }

@@ -29,6 +29,7 @@ struct Surroundings {
     Index count = 0;                          ///< cells in all of these
     std::vector<std::int32_t> planes;         ///< planes in which its charges may be mirrored
     std::vector<std::int32_t> unmirrored;     ///< own boundary faces whose value the images do not make zero
+    std::vector<std::int32_t> unmirroredCopies;  ///< the same of other ranks and periods
     bool inexactWall = false;                 ///< some boundary face in reach is not mirrored exactly (curved walls, wedges)
     bool wallWithoutImage = false;            ///< some boundary face in reach lies in none of the planes
     bool hides = false;                       ///< some cell in reach of the cloud cannot be walked to

@@ -144,6 +144,21 @@ void checkDimensions(const caseSettings& settings, const DemPort& dem, Complaint
                          "take the constraint out.");
 }
 
+void checkPointField(const caseSettings& settings, const DemPort& dem, Complaints& complaints)
+{
+    const auto* user = dynamic_cast<const PointFieldUser*>(&dem);
+    if (!user || !user->usesPointField()) {
+        return;
+    }
+    if (settings.wallContactField == WallContactField::self) {
+        complaints.add("constant/couplingProperties: wallContactField",
+                       "self leaves the field of the others out at walls, so `wallField atContactPoint` of the DEM "
+                       "script has nothing to act on. Take one of them out.");
+    } else if (!FieldMethod::knowsPoints(settings.field.method)) {
+        complaints.add("DEM script: wallField", FieldMethod::noPointsText(settings.field.method) + ".");
+    }
+}
+
 void findImageWalls(caseSettings& settings, const DemPort& dem, Complaints& complaints)
 {
     PairwiseSumSettings& sum = settings.field.pairwiseSum;

@@ -163,11 +163,13 @@ double foamPoissonMesh::potential(Index cell) const
 void foamPoissonMesh::forgetPotential()
 {
     electricPotential_.primitiveFieldRef() = 0;
+    equation_->report(false);
     solvedCharge_.reset();
     partSolvedCharge_.reset();
     if (part_) {
         part_->potential.primitiveFieldRef() = 0;
         part_->firstIncrement = 0;
+        part_->equation.report(false);
     }
 }
 

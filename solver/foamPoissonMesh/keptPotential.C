@@ -45,6 +45,10 @@ std::unique_ptr<PoissonMesh::Kept> foamPoissonMesh::keep() const
 void foamPoissonMesh::restore(const Kept* kept)
 {
     const auto& state = dynamic_cast<const keptPotential&>(*kept);
+    equation_->report(true);
+    if (part_) {
+        part_->equation.report(true);
+    }
     electricPotential_.primitiveFieldRef() = state.electricPotential;
     electricPotential_.correctBoundaryConditions();
     chargeDensity_.primitiveFieldRef() = state.chargeDensity;

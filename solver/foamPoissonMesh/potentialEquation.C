@@ -205,7 +205,7 @@ solverPerformance potentialEquation::solveOnce(scalarField& values, const scalar
     controls.set("tolerance", tolerance);
     solver_->read(controls);
     const solverPerformance performance = solver_->solve(values, source);
-    if (solverPerformance::debug) {
+    if (told_ && solverPerformance::debug) {
         performance.print(Info.masterStream(potential_.mesh().comm()));
     }
     if (!performance.converged()) {

@@ -87,6 +87,14 @@ pressureDropSource pressureDropOf(const scene& s, const gasPhase* gas)
     };
 }
 
+void handOverPointField(scene& s, FieldMethod& method)
+{
+    auto* user = dynamic_cast<PointFieldUser*>(s.dem.get());
+    if (user && user->usesPointField() && method.pointField()) {
+        user->setPointField(*method.pointField());
+    }
+}
+
 void run(scene& s, MPI_Comm communicator)
 {
     Foam::Time& runTime = s.runTime();
@@ -94,6 +102,7 @@ void run(scene& s, MPI_Comm communicator)
     const auto method = s.settings.electrostatics ? FieldMethod::create(s.settings.field, s.poisson.get(), s.dem->box(),
                                                                         s.dem->periodic(), communicator, times)
                                                   : FieldMethod::none();
+    handOverPointField(s, *method);
     const auto nearField = NearFieldRefresh::create(s.settings.field, s.poisson.get(), *s.dem, communicator, times);
     CoupledStep step(*s.dem, *method, communicator, times);
     step.setWallCharges(s.insulatingWalls.get());
@@ -127,6 +136,9 @@ void run(scene& s, MPI_Comm communicator)
     }
     step.start();
     report.warnOfHeldField(step.summary());
+    if (s.settings.field.ownResponse) {
+        printOwnResponse(*method);
+    }
     printOwnCellField(*method, step.particles());
     if (charge) {
         charge->write(runTime.value(), step);

@@ -7,6 +7,8 @@
 
 #include "profiling.H"
 
+#include <algorithm>
+
 namespace him {
 
 namespace {
@@ -21,7 +23,10 @@ void handElectrostaticsToDem(scene& s)
     s.dem->setWallRoles(roles);
     s.dem->setWallContactField(s.settings.wallContactField);
     s.dem->setPermittivity(s.settings.field.permittivity);
-    s.settings.field.ownResponse = s.dem->charging();
+    const bool wallsCharge =
+        std::any_of(roles.begin(), roles.end(), [](const WallRole& role) { return role.transfersCharge; });
+    s.settings.field.ownResponse = s.dem->charging() && wallsCharge && !s.settings.fixedUniformCharge
+                                   && s.settings.wallContactField == WallContactField::total;
 }
 
 }  // namespace
@@ -88,6 +93,9 @@ void openDem(scene& s, MPI_Comm communicator)
     checkNearField(s.settings.field.nearField, s.demSteps, complaints);
     findImageWalls(s.settings, *s.dem, complaints);
     chooseByAccuracy(s.settings, *s.dem, s.poisson.get(), communicator, complaints);
+    if (s.settings.electrostatics) {
+        checkPointField(s.settings, *s.dem, complaints);
+    }
     if (s.poisson) {
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
         s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);

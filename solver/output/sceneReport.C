@@ -79,13 +79,9 @@ std::string cloudText(const P3mSettings& p3m)
 }
 
 /// How much of the walls' response to a particle's own charge charging sees in spite of `wallContactField total`; empty where
-/// it sees none. Shares of the sphere's surface field as measured in a grounded cube (tests/dem_coupling/isolated_sphere_test.cpp).
+/// it sees none, and for p3m, which knows when it has seen the particles (printOwnResponse).
 std::string ownResponseText(const FieldSettings& field)
 {
-    if (field.method == "p3m" && (!field.p3m.selfTerm || (field.p3m.cloudRadius == 0 && field.p3m.cloudCells < 3))) {
-        return "p3m knows it to 1 to 13 % of the particle's surface field (conducting walls, cells of 0.6 to 0.12 "
-               "diameters). `selfTerm yes; cloudCells 3;` in p3mCoeffs leaves 0.6 %";
-    }
     if (field.method == "him" && field.him.ownCellResponse == OwnCellResponse::keep) {
         return "him keeps it, so isolated particles stop short of q_sat. `ownCellResponse forceOnly;` in himCoeffs "
                "hides it from charging";
@@ -198,6 +194,14 @@ void printUniformCharge(const UniformCharge& charge)
                    << shown(charge.mean, 12).c_str() << " C";
     }
     Foam::Info << '\n' << Foam::endl;
+}
+
+void printOwnResponse(const FieldMethod& method)
+{
+    const std::string text = method.ownResponseText();
+    if (!text.empty()) {
+        Foam::Info << "Response of walls to a particle's own charge: " << text.c_str() << '.' << Foam::endl;
+    }
 }
 
 void printOwnCellField(FieldMethod& method, const DemParticles& particles)

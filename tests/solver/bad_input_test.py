@@ -29,6 +29,16 @@ class BadInput(SoundCaseTests):
         self.assertIn("the case is fine", result.text)
         self.assertNotIn("Time = ", result.text)
 
+    def test_the_field_at_contact_points_needs_the_pair_sum_and_has_to_count(self):
+        self.case.replace(SCRIPT, "area hertz", "area hertz wallField atContactPoint")
+        for method in ("him", "himCell"):
+            if method == "himCell":
+                self.case.replace(ELECTROSTATIC, "fieldMethod him;", "fieldMethod himCell; himCellCoeffs { deltaMin 0.02; }")
+            self.refused("DEM script: wallField: atContactPoint needs the field of the others where no particle's centre is, and %s gives "
+                         "fields at centres only. pairwiseSum and p3m have it" % method)
+        self.case.replace(COUPLING, "wallContactField total;", "wallContactField self;")
+        self.refused("wallContactField: self leaves the field of the others out at walls")
+
     # --- stage 1: dictionaries, mesh and fields
 
     def test_missing_dictionary(self):

@@ -15,6 +15,7 @@ DIGITS = 5.1e-12   # himFoam writes 12 digits
 METHODS = {
     "pairwiseSum": ("pairwiseSum", "", "method pairwiseSum"),
     "pairwiseSum with images": ("pairwiseSum", "pairwiseSumCoeffs { images yes; }", "method pairwiseSum images yes without_image lid"),
+    "field of others at contact points": ("pairwiseSum", "pairwiseSumCoeffs { images yes; }", "method pairwiseSum images yes without_image lid"),
     "directTruncation": ("directTruncation", "", "method directTruncation cutoff 0.02"),
 }
 
@@ -47,6 +48,8 @@ class SameNumbers(unittest.TestCase):
                 case = TinyCase(folder, method)
                 if coeffs:
                     case.replace("constant/electrostaticProperties", "externalField", coeffs + "\nexternalField")
+                if "contact points" in name:
+                    case.replace("DEM/in.cube", "area hertz", "area hertz wallField atContactPoint")
                 result = case.run()
                 self.assertEqual(result.code, 0, result.text[-1500:])
                 hosted = self.written(case.path / "postProcessing/particles/0.002.vtp")

@@ -268,7 +268,7 @@ class Refusals(unittest.TestCase):
                 "type 1: its saturation is used by no pair": wall + "sizeLaw 1 1e-6 3",
                 'unknown form of the charging law "slow"': wall + "update slow",
                 "ownImage: unknown word 'yes'; known: excluded, included": wall + "ownImage yes",
-                "wallField: atContactPoint is not available": wall + "wallField atContactPoint",
+                "wallField: unknown word 'surface'; known: centre, atContactPoint": wall + "wallField surface",
                 "acceleration must be a number above zero": wall + "acceleration -2",
                 "realModulus: there is no type 5": wall + "realModulus 5 1e9",
                 "relaxationTime [s] must be > 0 and finite, found 0": wall + "relaxationTime 0",

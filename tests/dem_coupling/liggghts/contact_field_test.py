@@ -78,6 +78,71 @@ class IsolatedSphere(unittest.TestCase):
         self.assertAlmostEqual((gamma - GAMMA) / vertical, 1, delta=3e-2)   # E.n = -Ez; the ball is up to 37 um off
 
 
+class ContactPoint(unittest.TestCase):
+    """`wallField atContactPoint`: a ball falls on a grounded floor beside a fixed charge. kappa is so large that the first steps of the
+    contact move all charge, and Gamma less the drive that is left is the field of the others."""
+
+    OTHER = (4e-3, 0.0, 2.5e-3)
+    CHARGE = -2e-9
+
+    def driven(self, where, ranks=1, words="images yes", own=0.0, every=1):
+        line = f"{CHARGING.rstrip()} {where}\nfix field all efield/him method pairwiseSum {words} every {every}"
+        start = (0.0, 0.0, RADIUS + 2e-6, 0.0, 0.0, -0.05, own)
+        text = script([start, (*self.OTHER, 0.0, 0.0, 0.0, self.CHARGE)], PLATES.splitlines()[0],
+                      line.replace(f"kappa {KAPPA!r}", "kappa 1e8"), step=STEP, after="group free id 1\n", grid=f"{ranks} 1 1")
+        text = text.replace("fix integrate all nve/sphere\ngroup free id 1\n", "group free id 1\nfix integrate free nve/sphere\n")
+        run = Run(text, int(4.2e-5 / STEP), ranks=ranks)
+        self.assertEqual(run.code, 0, run.out[-800:])
+        self.assertGreater(abs(run.charge() - own), 1e-11, "it must have touched the floor")
+        return run.charge() / (4 * math.pi * EPSILON0 * RADIUS ** 2) - GAMMA   # Ez of the others
+
+    def analytic(self, height, images=True):
+        x, _, z = self.OTHER
+        coulomb = self.CHARGE / (4 * math.pi * EPSILON0)
+        places = ((z, 1), (-z, -1)) if images else ((z, 1),)
+        return sum(sign * coulomb * (height - place) / ((height - place) ** 2 + x ** 2) ** 1.5 for place, sign in places)
+
+    def test_the_field_at_the_contact_point_and_at_the_centre_are_the_analytic_ones(self):
+        at_point, at_centre = self.analytic(0), self.analytic(RADIUS)
+        self.assertGreater(abs(at_point / at_centre - 1), 0.1, "the two must differ for the test to tell")
+        self.assertAlmostEqual(self.driven("wallField atContactPoint") / at_point, 1, delta=1e-3)
+        self.assertAlmostEqual(self.driven("wallField centre") / at_centre, 1, delta=1e-3)
+
+    def test_centre_is_the_default_to_the_last_bit(self):
+        self.assertEqual(self.driven(""), self.driven("wallField centre"))
+
+    def test_neither_the_own_charge_nor_its_images_count(self):
+        for own in (5e-10, -9e-10):
+            self.assertAlmostEqual(self.driven("wallField atContactPoint", own=own) / self.analytic(0), 1, delta=1e-3)
+
+    def test_without_images_it_is_that_of_the_charge_and_a_uniform_field_is_added(self):
+        found = self.driven("wallField atContactPoint", words="external 0 0 3e5")
+        self.assertAlmostEqual(found / (self.analytic(0, images=False) + 3e5), 1, delta=1e-3)
+
+    def test_a_truncated_sum_leaves_out_what_is_farther_than_that_from_the_contact_point(self):
+        self.assertAlmostEqual(self.driven("wallField atContactPoint", words="cutoff 4.5e-3"), 0, delta=1e-3 * abs(self.analytic(0)))
+
+    def test_it_comes_from_the_charges_that_made_a_held_field_and_is_the_same_on_two_ranks(self):
+        once = self.driven("wallField atContactPoint")
+        self.assertAlmostEqual(self.driven("wallField atContactPoint", every=1000) / once, 1, delta=3e-3)
+        self.assertAlmostEqual(self.driven("wallField atContactPoint", ranks=2) / once, 1, delta=1e-12)
+
+    def test_an_isolated_sphere_saturates_at_q_sat(self):
+        start = (0.0, 0.0, RADIUS + GAP / 2, 0.0, 0.0, -SPEED, 0.0)
+        line = field("every 10").replace(f"kappa {KAPPA!r}", f"kappa {KAPPA!r} wallField atContactPoint")
+        run = Run(script([start], PLATES, line, step=STEP), 2600)
+        self.assertAlmostEqual(run.charge() / SATURATION, 1, delta=5e-3)
+
+    def test_it_is_refused_where_nobody_knows_the_field_or_where_it_does_not_count(self):
+        floor = PLATES.splitlines()[0]
+        for words, text in (("method directTruncation cutoff 0.01", "directTruncation gives fields at centres only. pairwiseSum and p3m have it"),
+                            ("method pairwiseSum wall_contact_field self", "has nothing to act on")):
+            line = f"{CHARGING.rstrip()} wallField atContactPoint\nfix field all efield/him {words}"
+            run = Run(script([(0.0, 0.0, 2e-3, 0.0, 0.0, 0.0, 0.0)], floor, line, step=STEP), 1)
+            self.assertNotEqual(run.code, 0)
+            self.assertIn(text, " ".join(run.out.split()))
+
+
 class Stability(unittest.TestCase):
     def test_a_sphere_among_twelve_never_passes_the_common_mean_at_any_kappa(self):
         # Twelve neighbours on the corners of a cuboctahedron, moving in together.
