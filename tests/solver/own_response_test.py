@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An isolated sphere in a grounded cylinder saturates at q_sat, whatever the walls answer to its own charge and however long the field
-is held. In boxes: tests/dem_coupling/isolated_sphere_test.cpp and tests/dem_coupling/liggghts/contact_field_test.py."""
+is held; and p3m's field at contact points. In boxes: tests/dem_coupling/isolated_sphere_test.cpp and tests/dem_coupling/liggghts/contact_field_test.py."""
 
 import math
 import unittest
@@ -67,6 +67,27 @@ class OwnResponse(CaseTests):
         result, found = self.plateaus(self.scene("keep", "him", HIM % "keep", 20))
         self.assertGreater(max(abs(charge - 1) for charge in found), 2e-2)
         self.assertIn("response of walls to a particle's own charge: him keeps it", result.text)
+
+
+class ContactPoint(CaseTests):
+    RADIUS, OTHER = 2e-3, 1e-9
+
+    def field(self, method, where):
+        """Ez [V/m] of the others that the charge tells which a sphere has taken from the floor beside a charged one."""
+        particles = [((0.05, 0.05, 0.0021), (0, 0, -0.5), 0.0), ((0.0545, 0.05, 0.0025), (0, 0, 0), self.OTHER)]
+        case = TinyCase(self.folder + "/" + method + where, method, cells=(20, 20, 20), particles=particles)
+        case.replace("constant/electrostaticProperties", "externalField (0 0 1000);", "pairwiseSumCoeffs { images yes; }")
+        case.replace("DEM/in.cube", "kappa 20.0 area hertz", "kappa 1e6 wallField " + where)
+        self.ran(case)
+        _, rows = case.charge_table()
+        return (rows[-1]["total"] - self.OTHER) / (4 * math.pi * EPSILON0 * self.RADIUS ** 2) + 7.67e5
+
+    def test_p3m_and_the_pair_sum_agree_on_the_field_at_the_contact_point_and_at_the_centre(self):
+        fields = {}
+        for where in ("centre", "atContactPoint"):
+            fields[where], pairs = (self.field(method, where) for method in ("p3m", "pairwiseSum"))
+            self.assertAlmostEqual(fields[where] / pairs, 1, delta=0.05, msg=where)
+        self.assertGreater(abs(fields["centre"] / fields["atContactPoint"] - 1), 0.1)
 
 
 if __name__ == "__main__":
