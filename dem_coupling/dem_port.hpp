@@ -50,13 +50,19 @@ struct GasForces {
     Scalars drag;     ///< beta [kg/s], at least 0
     Points force;     ///< of the gas beside drag, which the gas loses [N]
     Points buoyancy;  ///< hydrostatic, which is balanced within the gas's own weight [N]
+    // No rows where nothing asks for them. The gas does not lose them in its solve: it pays for the impulse afterwards.
+    Points unpaid;      ///< lift, and added mass times the acceleration of the gas [N]
+    Scalars addedMass;  ///< gas that a particle drags along when it is accelerated [kg]
 
-    void resize(Index rows)
+    /// Zeros. @param unpaidToo  whether the last two have rows
+    void resize(Index rows, bool unpaidToo = false)
     {
         velocity.setZero(rows, 3);
         drag.setZero(rows);
         force.setZero(rows, 3);
         buoyancy.setZero(rows, 3);
+        unpaid.setZero(unpaidToo ? rows : 0, 3);
+        addedMass.setZero(unpaidToo ? rows : 0);
     }
 };
 
@@ -152,9 +158,11 @@ public:
     /// Hands over what the gas does to the particles last given by particles(), in the same order. Before the first call no
     /// gas acts.
     virtual void setGasForces(const GasForces& forces) = 0;
-    /// Impulse [N s] that drag and force have given each particle since setGasForces(), and what they promised for a
-    /// duration [s] with the velocities of that moment; in the order of particles(), not collective. Zeros before the first
-    /// setGasForces().
+    /// Whether the particles of a checkpoint brought the gas forces of its time with them. After handOver().
+    virtual bool gasForcesRestarted() const { return false; }
+    /// Impulse [N s] that the gas has given each particle since setGasForces(), buoyancy left out, and what drag and force
+    /// promised for a duration [s] with the velocities of that moment; in the order of particles(), not collective. Zeros
+    /// before the first setGasForces().
     virtual void gasImpulse(Points& given, double duration, Points& promised) const = 0;
     /// Particles that there must be, all ranks: those of the hand-over and those that appeared, less those that were taken
     /// out with permission.
@@ -183,6 +191,8 @@ public:
     virtual void setNotes(const Notes& notes) { static_cast<void>(notes); }
 
     // --- what is measured on request
+    /// Radius of the largest particle that is there or that the script can insert, all ranks [m]. Collective.
+    virtual double largestRadius() const { return 0; }
     /// Gravity [m/s2]; zero where the script has none.
     virtual Vector3 gravity() const { return Vector3::Zero(); }
     /// The factor a on every charge transfer; 1 without charging.

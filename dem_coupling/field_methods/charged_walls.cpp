@@ -57,6 +57,11 @@ ChargedWalls::ChargedWalls(const PoissonMesh& mesh, MeshHalo& halo, Surroundings
     }
     faceCharge_.setZero(static_cast<Index>(faceCell_.size()));
 
+    orderPanels();
+}
+
+void ChargedWalls::orderPanels()
+{
     Points centres(static_cast<Index>(panels_.size()), 3);
     double reach = 0;
     for (std::size_t n = 0; n < panels_.size(); ++n) {
@@ -64,6 +69,19 @@ ChargedWalls::ChargedWalls(const PoissonMesh& mesh, MeshHalo& halo, Surroundings
         reach = std::max(reach, nearRadii * panels_[n].shape.radius);
     }
     panelCells_.build(centres, 0, centres.rows(), reach);
+    std::vector<Panel> ordered;
+    ordered.reserve(panels_.size());
+    panelCentre_.resize(centres.rows(), 3);
+    panelNearSquared_.resize(centres.rows());
+    panelCharge_.setZero(centres.rows());
+    for (const std::int32_t panel : panelCells_.order()) {
+        const auto at = static_cast<Index>(ordered.size());
+        ordered.push_back(std::move(panels_[static_cast<std::size_t>(panel)]));
+        panelCentre_.row(at) = centres.row(panel);
+        const double near = nearRadii * ordered.back().shape.radius;
+        panelNearSquared_[at] = near * near;
+    }
+    panels_ = std::move(ordered);
 }
 
 void ChargedWalls::takeFace(const std::vector<Vector3>& corners, std::int32_t cell, SurroundingsTable& table,
@@ -124,6 +142,9 @@ void ChargedWalls::update(SparseExchange& exchange)
             faceCharge_[face++] = charge;
         }
     }
+    for (std::size_t n = 0; n < panels_.size(); ++n) {
+        panelCharge_[static_cast<Index>(n)] = panels_[n].share * faceCharge_[panels_[n].face];
+    }
 }
 
 void ChargedWalls::appendTo(CloudSources& sources) const
@@ -157,13 +178,14 @@ void ChargedWalls::addNearPanels(const CloudSources& sources, double permittivit
         for (int n = 0; n < ranges.count; ++n) {
             for (auto at = ranges.range[static_cast<std::size_t>(n)].begin;
                  at < ranges.range[static_cast<std::size_t>(n)].end; ++at) {
-                const Panel& panel =
-                    panels_[static_cast<std::size_t>(panelCells_.order()[static_cast<std::size_t>(at)])];
-                const double charge = coulombConstant * panel.share * faceCharge_[panel.face];
-                const double near = nearRadii * panel.shape.radius;
-                if (charge == 0 || (place - panel.shape.centre).squaredNorm() >= near * near) {
+                const double x = place[0] - panelCentre_(at, 0);
+                const double y = place[1] - panelCentre_(at, 1);
+                const double z = place[2] - panelCentre_(at, 2);
+                if (x * x + y * y + z * z >= panelNearSquared_[at] || panelCharge_[at] == 0) {
                     continue;
                 }
+                const Panel& panel = panels_[static_cast<std::size_t>(at)];
+                const double charge = coulombConstant * panelCharge_[at];
                 Vector3 more = Vector3::Zero();
                 double morePotential = 0;
                 panel.shape.addField(place, charge, more, morePotential);

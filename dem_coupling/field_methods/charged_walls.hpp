@@ -57,8 +57,13 @@ private:
         double share;  ///< of the face's charge, negative for the image in a conductor
         std::int32_t face;
     };
+    /// Lays the panels in the order of their linked cells, so that those near a target follow one another.
+    void orderPanels();
     std::vector<Panel> panels_;  ///< and their images
     LinkedCells panelCells_;
+    Points panelCentre_;        ///< [m], all three in the order of panels_
+    Scalars panelNearSquared_;  ///< squared distance up to which the panel is exact [m2]
+    Scalars panelCharge_;       ///< of update() [C]
 };
 
 }  // namespace him

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/gas/gas_coupling.hpp"
 
+#include "dem_coupling/gas/lift.hpp"
 #include "electrostatics/constants.hpp"
 
 #include <algorithm>
@@ -92,12 +93,17 @@ void GasCoupling::collect(const DemParticles& particles, const Points& velocity)
     layOwed();
 }
 
-void GasCoupling::resume(const DemParticles& particles, const GasResult& result, double duration)
+void GasCoupling::resume(const DemParticles& particles, const GasResult& result, double duration, const Vector3& ahead)
 {
     layVolumes(particles);
+    if (dem_.gasForcesRestarted()) {
+        lastDuration_ = duration;
+        books_.given = books_.ahead = ahead;
+        return;
+    }
     layDrag(particles, result.velocity);
     handBack(particles, result, duration);
-    books_.given = books_.promised;
+    books_.given = books_.ahead = books_.promised;
 }
 
 void GasCoupling::layVolumes(const DemParticles& particles)
@@ -105,8 +111,8 @@ void GasCoupling::layVolumes(const DemParticles& particles)
     shares_.locate(particles);
     toCells(sphereVolume(particles.radius), sources_.voidFraction);
 
-    // Sums: solid volume, particles outside, cells and volume below the bound, mass and its moments.
-    std::array<double, 8> sums{};
+    // Sums: solid volume, particles outside, cells and volume below the bound, mass, its moments, momentum.
+    std::array<double, 11> sums{};
     double smallest = 1;
     for (Index cell = 0; cell < volume_.size(); ++cell) {
         double& voidFraction = sources_.voidFraction[cell];
@@ -123,6 +129,7 @@ void GasCoupling::layVolumes(const DemParticles& particles)
     sums[4] = particles.mass.sum();
     for (int axis = 0; axis < 3; ++axis) {
         sums[5 + static_cast<std::size_t>(axis)] = (particles.mass * particles.position.col(axis)).sum();
+        sums[8 + static_cast<std::size_t>(axis)] = (particles.mass * particles.velocity.col(axis)).sum();
     }
     sums = sumOverRanks(sums, communicator_);
     MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, communicator_);
@@ -131,8 +138,16 @@ void GasCoupling::layVolumes(const DemParticles& particles)
     summary_.boundedCells = static_cast<std::int64_t>(sums[2]);
     summary_.boundedVolume = sums[3];
     summary_.smallestVoidFraction = smallest;
+    summary_.momentum = Vector3(sums[8], sums[9], sums[10]);
     if (sums[4] > 0) {
         summary_.massCentre = Vector3(sums[5], sums[6], sums[7]) / sums[4];
+    }
+    if (smallest < 0) {
+        throw std::runtime_error(
+            "a cell of the gas holds " + std::to_string(1 - smallest)
+            + " of its volume of particles. Nothing the gas does there would be right: write "
+              "voidFraction divided; or smoothed; in constant/gasProperties, use larger cells, or look for "
+              "overlapping particles");
     }
     if (summary_.particlesOutside > 0 && !settings_.particlesOutsideAllowed) {
         refuseOutside(particles);
@@ -169,7 +184,7 @@ void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
     toRows(velocity, velocityAtRow_);
     toRows(sources_.voidFraction, voidFractionAtRow_);
 
-    forces_.resize(particles.size());
+    forces_.resize(particles.size(), settings_.needsGasMotion());
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
@@ -201,12 +216,35 @@ void GasCoupling::layOwed()
     const Vector3 got(sums[0], sums[1], sums[2]);
     const Vector3 laid(sums[3], sums[4], sums[5]);
     books_.got += got;
+    books_.ahead -= got;
     // Before this solve the gas must have given what the particles have got. What the deposit does not know of (particles
     // that left, meshes on which faces and cells do not weigh alike) is spread as the drag is.
-    const Vector3 missing = books_.got - books_.given - laid;
+    const Vector3 missing = -books_.ahead - laid;
     if (sums[6] > 0) {
         for (int axis = 0; axis < 3; ++axis) {
             sources_.owed.col(axis) += sources_.drag * (missing[axis] / sums[6]);
+        }
+    }
+}
+
+void GasCoupling::addUnpaidForces(const DemParticles& particles, const GasResult& result)
+{
+    toRows(result.acceleration, gathered_);
+    toRows(result.vorticity, vorticityAtRow_);
+    for (Index row = 0; row < particles.size(); ++row) {
+        if (!shares_.inMesh(row)) {
+            continue;
+        }
+        const double displaced = settings_.density * sphereVolume(particles.radius[row]);
+        forces_.addedMass[row] = settings_.virtualMass * displaced;
+        forces_.unpaid.row(row) = forces_.addedMass[row] * gathered_.row(row);
+        if (settings_.saffmanLift) {
+            const Vector3 slip = (forces_.velocity.row(row) - particles.velocity.row(row)).matrix().transpose();
+            const Vector3 vorticity = vorticityAtRow_.row(row).matrix().transpose();
+            forces_.unpaid.row(row) +=
+                saffmanLift(settings_.density, settings_.viscosity, 2 * particles.radius[row], slip, vorticity)
+                    .transpose()
+                    .array();
         }
     }
 }
@@ -227,6 +265,9 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
         }
         forces_.buoyancy.row(row) = -settings_.density * volume * settings_.gravity.transpose().array();
     }
+    if (settings_.needsGasMotion()) {
+        addUnpaidForces(particles, result);
+    }
     dem_.setGasForces(forces_);
     lastDuration_ = duration;
     std::array<double, 3> sums{};
@@ -238,6 +279,7 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
     sums = sumOverRanks(sums, communicator_);
     summary_.force = Vector3(sums[0], sums[1], sums[2]);
     books_.given += result.given;
+    books_.ahead += result.given;
     books_.promised = duration * summary_.force;
     books_.moved += result.given.norm();
 }

@@ -18,9 +18,12 @@ struct GasSources {
 
 /// What the gas solve has found, one value per local cell, and its sum.
 struct GasResult {
-    Points velocity;                  ///< [m/s]
-    Points pressureForce;             ///< -grad p without the hydrostatic part [N/m3]
-    Vector3 given = Vector3::Zero();  ///< impulse that the gas lost to the particles in this solve, all ranks [N s]
+    Points velocity;       ///< [m/s]
+    Points pressureForce;  ///< -grad p without the hydrostatic part [N/m3]
+    Points acceleration;   ///< DU/Dt [m/s2]; no rows without GasSettings::needsGasMotion()
+    Points vorticity;      ///< curl U [1/s]; likewise
+    /// Impulse that the gas lost in this solve otherwise than through its boundary, all ranks [N s].
+    Vector3 given = Vector3::Zero();
 };
 
 /// Sums over all ranks since the start.
@@ -30,9 +33,12 @@ struct MomentumBooks {
     /// By the forces of the last gas step for one more of the same length: what `given` is ahead of `got` [N s].
     Vector3 promised = Vector3::Zero();
     double moved = 0;  ///< sum of the sizes of all that was given [N s]
+    /// What the gas gave and the particles have not got yet [N s]. Kept by itself, so that a run that continues with it rounds
+    /// as the earlier one would have.
+    Vector3 ahead = Vector3::Zero();
     /// What the gas gave otherwise than the particles were promised, in the last solve; the next one makes up for it, so it
     /// never accumulates. Relative to all that was moved [-].
-    double mismatch() const { return moved > 0 ? (given - got - promised).norm() / moved : 0; }
+    double mismatch() const { return moved > 0 ? (ahead - promised).norm() / moved : 0; }
 };
 
 /// Numbers of one gas step, all ranks.
@@ -43,6 +49,7 @@ struct GasSummary {
     double boundedVolume = 0;              ///< solid volume that those cells hold above it [m3]
     double smallestVoidFraction = 1;       ///< before it was bounded
     Vector3 massCentre = Vector3::Zero();  ///< of the particles [m]
+    Vector3 momentum = Vector3::Zero();    ///< of the particles, at the end of the step [N s]
     Vector3 force = Vector3::Zero();  ///< of drag and pressure gradient on the particles, at the end of the step [N]
 };
 
@@ -67,8 +74,10 @@ public:
     void handBack(const DemParticles& particles, const GasResult& result, double duration);
 
     /// Takes up a run where it stopped: the gas acts on the particles as its last solve left it. Collective.
-    /// @param result  of that solve; what it gave is found from the particles
-    void resume(const DemParticles& particles, const GasResult& result, double duration);
+    /// @param result    of that solve
+    /// @param duration  of that gas step [s]
+    /// @param ahead     MomentumBooks::ahead of that time; used where the particles kept their forces
+    void resume(const DemParticles& particles, const GasResult& result, double duration, const Vector3& ahead);
 
     const GasSources& sources() const { return sources_; }
     const GasSummary& summary() const { return summary_; }
@@ -80,6 +89,8 @@ private:
     [[noreturn]] void refuseOutside(const DemParticles& particles) const;
     void layDrag(const DemParticles& particles, const Points& velocity);
     void layOwed();
+    /// Lift and what the acceleration of the gas does to a particle, from where velocities and results are gathered.
+    void addUnpaidForces(const DemParticles& particles, const GasResult& result);
     /// Sum over particles per volume of cells, and the mean of cells at particles, by the void-fraction model. Collective.
     void toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume);
     void toRows(const Points& ofCell, Points& ofRow);
@@ -97,7 +108,7 @@ private:
     MomentumBooks books_;
     double lastDuration_ = 0;  ///< [s]
     Scalars volume_, cell_, voidFractionAtRow_;
-    Points given_, promised_, smoothed_, gathered_, velocityAtRow_;
+    Points given_, promised_, smoothed_, gathered_, velocityAtRow_, vorticityAtRow_;
 };
 
 }  // namespace him

@@ -35,6 +35,11 @@ struct GasSettings {
     double smoothingLength = 0;            ///< of smoothed [m]
     double smallestVoidFraction = 0.1;     ///< cells below are set to it, counted and reported [-]
     bool particlesOutsideAllowed = false;  ///< else one outside the mesh stops the run
+    double virtualMass = 0;                ///< added mass over the mass of the displaced gas; 0.5 for a sphere [-]
+    bool saffmanLift = false;
+
+    /// Whether particles feel the acceleration and the vorticity of the gas.
+    bool needsGasMotion() const { return virtualMass > 0 || saffmanLift; }
 };
 
 }  // namespace him

@@ -12,12 +12,14 @@ namespace him {
 /// fix ID group couple/cfd/drag
 ///
 /// The gas acts on every particle by
-///     F = beta (u - v)/(1 + beta dt/m) + F_gas + F_buoyancy,
-/// with u, beta and the two forces held from one gas step to the next, and the velocity v of the moment. The denominator
-/// makes the drag implicit in v over one DEM step dt, so that it never overshoots, however light the particle.
+///     F_drag = beta (u - v - dt F/M)/(1 + beta dt/M),   M = m + m_added,
+/// with F all other forces (those of fixes and pairs before this one, pressure gradient, buoyancy, lift), and u, beta, m_added
+/// and the forces of the gas held from one gas step to the next; v is the velocity of the moment. The drag is thus implicit in
+/// the velocity that the DEM step dt ends with: it never overshoots, however light the particle, and in balance with a weight
+/// the slip is exactly weight/beta. The added mass takes its share of every acceleration: (F + F_drag) m/M is applied.
 ///
-/// Each particle keeps account of the impulse that the first two terms gave it, as the integrator applies them: half of
-/// dt with the force of the step before, half with that of the step itself.
+/// Each particle keeps account of the impulse that the gas gave it, buoyancy left out, as the integrator applies it: half of
+/// dt with the force of the step before, half with that of the step itself. Account and forces go into restart files.
 class FixCoupleCfdDrag : public LAMMPS_NS::Fix {
 public:
     FixCoupleCfdDrag(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
@@ -25,11 +27,13 @@ public:
 
     /// What acts on the owned particles from now on, in the order of their rows. The impulse account starts anew.
     void setForces(const GasForces& forces);
-    /// Impulse [N s] of drag and gas force since setForces(), and what the forces promised for `duration` [s] when they were
-    /// set, in the order of the rows.
+    /// Impulse [N s] of the gas since setForces(), and what drag and force promised for `duration` [s] when they were set, in
+    /// the order of the rows.
     void impulse(Points& gained, double duration, Points& expected) const;
     /// Particles that appeared on this rank since this fix was made.
     std::int64_t arrivals() const { return arrivals_; }
+    /// Whether the rows of this rank came from a restart file.
+    bool restarted() const { return restarted_; }
 
     int setmask() override;
     void setup(int) override;
@@ -39,6 +43,10 @@ public:
     void set_arrays(int row) override;
     int pack_exchange(int row, double* buffer) override;
     int unpack_exchange(int row, double* buffer) override;
+    int pack_restart(int row, double* buffer) override;
+    void unpack_restart(int row, int nth) override;
+    int size_restart(int row) override;
+    int maxsize_restart() override;
 
 private:
     /// Adds the forces of the moment. @param counted  share of dt that the forces before and now have acted by [s]
@@ -46,6 +54,7 @@ private:
 
     double** held_ = nullptr;  ///< see the columns in the source
     std::int64_t arrivals_ = 0;
+    bool restarted_ = false;
 };
 
 }  // namespace him

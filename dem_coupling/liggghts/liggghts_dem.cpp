@@ -261,6 +261,13 @@ void LiggghtsDem::setGasForces(const GasForces& forces)
     drag_->setForces(forces);
 }
 
+bool LiggghtsDem::gasForcesRestarted() const
+{
+    int restarted = drag_ && drag_->restarted();
+    MPI_Allreduce(MPI_IN_PLACE, &restarted, 1, MPI_INT, MPI_MAX, communicator_);
+    return restarted != 0;
+}
+
 void LiggghtsDem::gasImpulse(Points& given, double duration, Points& promised) const
 {
     if (drag_) {

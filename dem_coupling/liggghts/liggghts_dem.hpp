@@ -51,6 +51,7 @@ public:
     void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
     void setGasForces(const GasForces& forces) override;
+    bool gasForcesRestarted() const override;
     void gasImpulse(Points& given, double duration, Points& promised) const override;
     std::int64_t particleCount() const override { return expected_; }
 
@@ -67,6 +68,7 @@ public:
     void notes(Notes& out) const override;
     void setNotes(const Notes& notes) override;
 
+    double largestRadius() const override;
     Vector3 gravity() const override;
     double chargingAcceleration() const override;
     std::vector<WallEquilibrium> equilibria() const override;

@@ -8,6 +8,7 @@
 
 #include "atom.h"
 #include "fix_gravity.h"
+#include "fix_particledistribution_discrete.h"
 #include "fix_property_atom.h"
 #include "fix_wall_gran.h"
 #include "modify.h"
@@ -27,6 +28,22 @@ struct WallForceStorage {
     friend Member memberOf(WallForceStorage);
 };
 template struct PrivateMember<WallForceStorage, &LAMMPS_NS::FixWallGran::fix_wallforce_>;
+
+double LiggghtsDem::largestRadius() const
+{
+    double largest = 0;
+    for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+        largest = std::max(largest, lmp_->atom->radius[i]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+    LAMMPS_NS::Modify& modify = *lmp_->modify;
+    for (int n = 0; n < modify.nfix; ++n) {
+        if (auto* sizes = dynamic_cast<LAMMPS_NS::FixParticledistributionDiscrete*>(modify.fix[n])) {
+            largest = std::max(largest, sizes->max_rad());
+        }
+    }
+    return largest;
+}
 
 Vector3 LiggghtsDem::gravity() const
 {
@@ -75,7 +92,8 @@ std::vector<WallEquilibrium> LiggghtsDem::equilibria() const
         for (int material = 1; material <= atom.ntypes; ++material) {
             WallEquilibrium one{type, material, {}, 0, of[1] / of[0], 0, 0};
             for (const ListedWall& listed : charging_->walls()) {
-                if (listed.wall.type == material && listed.wall.chargingModel && charging_->transfersAt(listed.wall.name)) {
+                if (listed.wall.type == material && listed.wall.chargingModel
+                    && charging_->transfersAt(listed.wall.name)) {
                     one.walls.push_back(listed.wall.name);
                 }
             }
@@ -84,10 +102,12 @@ std::vector<WallEquilibrium> LiggghtsDem::equilibria() const
                 continue;
             }
             one.transferLimit = pair.limit(0.5 * one.diameter, 0);
-            one.charge = equilibriumCharge(one.transferLimit, one.diameter, transfer.permittivity()) / (transfer.ownImage() ? 2 : 1);
+            one.charge = equilibriumCharge(one.transferLimit, one.diameter, transfer.permittivity())
+                         / (transfer.ownImage() ? 2 : 1);
             if (strength > 0) {
                 const double mass = of[2] / of[3] * pi / 6 * one.diameter * one.diameter * one.diameter;
-                one.forceOverWeight = forceOverWeight(one.charge, one.diameter, transfer.permittivity(), mass, strength);
+                one.forceOverWeight =
+                    forceOverWeight(one.charge, one.diameter, transfer.permittivity(), mass, strength);
             }
             found.push_back(one);
         }

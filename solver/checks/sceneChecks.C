@@ -90,6 +90,13 @@ void refuseChargeWithoutVoltage(const caseSettings& settings, const DemPort& dem
 long demStepsPerUpdate(double deltaT, double timeStep, Complaints& complaints)
 {
     const double ratio = deltaT / timeStep;
+    if (ratio < 1 - ratioTolerance) {
+        complaints.add("system/controlDict: deltaT",
+                       "found " + shown(deltaT) + " s, but the DEM takes steps of " + shown(timeStep)
+                           + " s (timestep in the DEM script), and field and gas can not take "
+                             "shorter ones. Raise deltaT, or lower timestep.");
+        return 0;
+    }
     const double nearest = std::max(1.0, std::round(ratio));
     if (std::abs(ratio - nearest) > ratioTolerance) {
         complaints.add("system/controlDict: deltaT",
@@ -137,11 +144,12 @@ void checkDimensions(const caseSettings& settings, const DemPort& dem, Complaint
     if (plane.empty() || !FieldMethod::needsMesh(settings.field.method)) {
         return;
     }
-    complaints.add("constant/electrostaticProperties: fieldMethod",
-                   settings.field.method + " has a mesh, but the DEM script confines spheres to the plane " + plane
-                       + " (fix constrain/plane). The mesh ends in front of and behind that plane, and its boundaries there would "
-                         "screen the charges, where a two-dimensional scene has nothing. Use pairwiseSum or directTruncation, or "
-                         "take the constraint out.");
+    complaints.add(
+        "constant/electrostaticProperties: fieldMethod",
+        settings.field.method + " has a mesh, but the DEM script confines spheres to the plane " + plane
+            + " (fix constrain/plane). The mesh ends in front of and behind that plane, and its boundaries there would "
+              "screen the charges, where a two-dimensional scene has nothing. Use pairwiseSum or directTruncation, or "
+              "take the constraint out.");
 }
 
 void checkPointField(const caseSettings& settings, const DemPort& dem, Complaints& complaints)

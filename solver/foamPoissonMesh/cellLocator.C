@@ -13,8 +13,11 @@ namespace {
 /// Bounding boxes and bins overlap by this share of the mesh size, so that round-off opens no gap between them.
 constexpr double overlap = 1e-9;
 
-/// Share of a bin by which the mesh may stick out of whole bins.
-constexpr double binSlack = 1e-6;
+/// Coordinates of points are one when they are closer than this share of the mean size of cells.
+constexpr double sameLayer = 1e-6;
+
+/// Bins per cell up to which the layers of a mesh are its bins.
+constexpr double mostBins = 2;
 
 /// A point is well inside a cell when it is further from its faces than this share of the mesh size.
 constexpr double wellApart = 1e-12;
@@ -60,10 +63,7 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
         listFacePlanes(cell);
     }
 
-    const double edge = std::cbrt(bounds_.size().prod() / mesh_.nCells());
-    // In a mesh of equal cubes the bins are the cells; the margin and round-off must not make one bin more.
-    bins_ = (bounds_.size().array() / edge - binSlack).ceil().cast<int>().max(1);
-    binSize_ = bounds_.size().array() / bins_.cast<double>();
+    layBins();
 
     // Cells are visited twice in ascending order: first to count the entries of every bin, then to fill them in.
     const auto forEachBinOf = [this](const Box& box, auto&& visit) {
@@ -93,7 +93,7 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
     for (int i = 0; i < bins_.x(); ++i) {
         for (int j = 0; j < bins_.y(); ++j) {
             for (int k = 0; k < bins_.z(); ++k) {
-                const Vector3 middle = bounds_.lower + ((Eigen::Array3d(i, j, k) + 0.5) * binSize_).matrix();
+                const Vector3 middle(axis_[0].middle(i), axis_[1].middle(j), axis_[2].middle(k));
                 const Foam::label cell = search(middle, binIndex(i, j, k));
                 const bool planeFaced =
                     cell >= 0
@@ -101,6 +101,30 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
                 middleCell_.push_back(planeFaced ? cell : -1);
             }
         }
+    }
+}
+
+/// In a structured mesh the bins are its cells. Elsewhere they are about as many and lie dense where its points do.
+void cellLocator::layBins()
+{
+    const double edge = std::cbrt(bounds_.size().prod() / mesh_.nCells());
+    double layers = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<double> coordinates;
+        coordinates.reserve(static_cast<std::size_t>(mesh_.nPoints()));
+        for (const Foam::point& point : mesh_.points()) {
+            coordinates.push_back(point[static_cast<Foam::direction>(axis)]);
+        }
+        axis_[axis] = binAxis(std::move(coordinates), sameLayer * edge);
+        layers *= axis_[axis].layers();
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        binAxis& bins = axis_[static_cast<std::size_t>(axis)];
+        if (layers > mostBins * mesh_.nCells()) {
+            bins.reduceTo(std::max(1, static_cast<int>(std::ceil(bounds_.size()[axis] / edge))));
+        }
+        bins.finish();
+        bins_[axis] = bins.bins();
     }
 }
 
@@ -121,8 +145,7 @@ void cellLocator::listFacePlanes(Foam::label cell)
 
 Eigen::Array3i cellLocator::binOf(const Vector3& point) const
 {
-    const Eigen::Array3i bin = ((point - bounds_.lower).array() / binSize_).floor().cast<int>();
-    return bin.max(0).min(bins_ - 1);
+    return {axis_[0].bin(point[0]), axis_[1].bin(point[1]), axis_[2].bin(point[2])};
 }
 
 std::size_t cellLocator::binIndex(int i, int j, int k) const

@@ -3,7 +3,10 @@
 
 #include "foamPoissonMesh/conversions.H"
 
+#include "IStringStream.H"
 #include "fvm.H"
+#include "gaussLaplacianScheme.H"
+#include "surfaceFields.H"
 #include "volFields.H"
 #include "zeroGradientFvPatchFields.H"
 
@@ -48,10 +51,14 @@ void foamGasMesh::smooth(Scalars& perVolume, double length) const
     }
     volScalarField source("spreadSource", spread);
     spread.correctBoundaryConditions();
-    fvScalarMatrix equation(
-        fvm::Sp(dimensionedScalar("one", dimless, 1), spread)
-            - fvm::laplacian(dimensionedScalar("area", dimArea, 0.25 * length * length), spread, "laplacian(spread)")
-        == source);
+    // Here and not in system/fvSchemes: the conservation of solid volume must not hang on it.
+    IStringStream words("linear corrected");
+    fv::gaussLaplacianScheme<scalar, scalar> scheme(mesh_, words);
+    const surfaceScalarField area(
+        IOobject("area", mesh_.time().timeName(), mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
+        dimensionedScalar("area", dimArea, 0.25 * length * length));
+    fvScalarMatrix equation(fvm::Sp(dimensionedScalar("one", dimless, 1), spread) - scheme.fvmLaplacian(area, spread)
+                            == source);
     dictionary controls;
     controls.add("solver", word("PCG"));
     controls.add("preconditioner", word("DIC"));

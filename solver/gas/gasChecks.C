@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas/gasChecks.H"
 
+#include "gas/gasTurbulence.H"
 #include "settings/checkedDictionary.H"
 #include "settings/foamExceptions.H"
 
@@ -52,6 +53,54 @@ Foam::autoPtr<Field> readField(const Foam::word& name, const Foam::fvMesh& mesh,
         complaints.add(where + ": dimensions", "found other units. Write dimensions " + units + ";");
     }
     return field;
+}
+
+/// A particle's diameter over the cube root of the smallest cell, unless largestParticle says otherwise. A 15th of a sphere
+/// of two cells fills .28 of one.
+constexpr double largestAtCentre = 1;
+constexpr double largestDivided = 2;
+
+/// The DEM's weight and the gas's buoyancy must be of one gravity.
+void checkGravity(const gasProperties& gas, const DemPort& dem, Complaints& complaints)
+{
+    const Vector3 script = dem.gravity();
+    const Vector3 given = gas.exchange.gravity;
+    if ((script - given).norm() > 1e-3 * std::max(script.norm(), given.norm())) {
+        const auto words = [](const Vector3& g) {
+            return "(" + shown(g[0]) + " " + shown(g[1]) + " " + shown(g[2]) + ")";
+        };
+        complaints.add(std::string(gasFile) + ": gravity", "found " + words(given) + ", but the DEM script has "
+                                                               + words(script)
+                                                               + " m/s2 (fix gravity). Write the same in both.");
+    }
+}
+
+/// The memory that the flux keeps of the step before is that of Euler's scheme.
+void checkTimeScheme(const Foam::fvMesh& mesh, Complaints& complaints)
+{
+    Foam::ITstream words(mesh.ddtScheme("ddt(voidFraction,U)"));
+    const Foam::word scheme(words);
+    if (scheme != "Euler") {
+        complaints.add("system/fvSchemes: ddtSchemes", "found " + scheme
+                                                           + ", but the gas takes Euler only. Write default "
+                                                             "Euler;");
+    }
+}
+
+/// Fields and entries of the turbulence model, tried on a copy of the flow. Collective.
+void checkTurbulence(const gasProperties& gas, const Foam::volScalarField& voidFraction, const Foam::volVectorField& U,
+                     Complaints& complaints)
+{
+    if (gas.turbulence.empty()) {
+        return;
+    }
+    const Foam::surfaceScalarField flux("phi", Foam::fvc::flux(U));
+    const foamExceptions throwing;
+    try {
+        const gasTurbulence model(voidFraction, U, flux, flux, gas.exchange.viscosity / gas.exchange.density);
+    } catch (const Foam::error& error) {
+        complaints.add(std::string(turbulenceFile) + ": " + gas.turbulence, firstLine(error));
+    }
 }
 
 /// Inflow, wall and outlet must be told apart: velocity or pressure has to be given on every patch.
@@ -125,7 +174,7 @@ Foam::autoPtr<Foam::fvMesh> openGasMesh(const Foam::Time& runTime, Complaints& c
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
 }
 
-void checkGasFields(const Foam::fvMesh& mesh, Complaints& complaints)
+void checkGasFields(const gasProperties& gas, const Foam::fvMesh& mesh, Complaints& complaints)
 {
     // Conditions of the patches look for these by name.
     const Foam::volScalarField voidFraction(
@@ -138,38 +187,43 @@ void checkGasFields(const Foam::fvMesh& mesh, Complaints& complaints)
         "the pressure of the gas [Pa], without its hydrostatic part, on every patch", complaints);
     if (U.valid() && p.valid()) {
         checkPatches(U(), p(), complaints);
+        checkTimeScheme(mesh, complaints);
+        checkTurbulence(gas, voidFraction, U(), complaints);
     }
 }
 
-void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const DemPort& dem, MPI_Comm communicator,
-                   Complaints& complaints)
+void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const DemPort& dem, Complaints& complaints)
 {
-    const double deltaT = mesh.time().deltaTValue();
-    if (deltaT < dem.timeStep() * (1 - 1e-9)) {
-        complaints.add("system/controlDict: deltaT", "the gas step " + shown(deltaT) + " s is below the DEM step "
-                                                         + shown(dem.timeStep())
-                                                         + " s. Raise deltaT, or lower timestep in the DEM script.");
-    }
+    checkGravity(gas, dem, complaints);
     if (gas.maxDeltaT > 0 && gas.maxDeltaT < dem.timeStep() * (1 - 1e-9)) {
         complaints.add(std::string(gasFile) + ": maxDeltaT",
                        "the largest gas step " + shown(gas.maxDeltaT) + " s is below the DEM step "
                            + shown(dem.timeStep()) + " s. Raise it, or lower timestep in the DEM script.");
     }
-    if (gas.exchange.voidFraction != VoidFractionModel::centre) {
+    const double largest = 2 * dem.largestRadius();
+    const double cell = std::cbrt(Foam::gMin(mesh.cellVolumes()));
+    const VoidFractionModel model = gas.exchange.voidFraction;
+    const std::string size = "the largest particle, " + shown(largest) + " m, is " + shown(largest / cell, 3)
+                             + " times the smallest cell, " + shown(cell) + " m, ";
+    if (model == VoidFractionModel::smoothed) {
+        if (largest > cell && gas.exchange.smoothingLength < largest) {
+            complaints.add(std::string(gasFile) + ": smoothingLength", size + "and is spread over "
+                                                                           + shown(gas.exchange.smoothingLength)
+                                                                           + " m only. Write at least its diameter.");
+        }
         return;
     }
-    DemParticles particles;
-    dem.particles(particles);
-    double largest = particles.size() > 0 ? 2 * particles.radius.maxCoeff() : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
-    const double cell = std::cbrt(Foam::gMin(mesh.cellVolumes()));
-    if (largest > gas.largestParticle * cell) {
+    const double allowed = gas.largestParticle > 0               ? gas.largestParticle
+                           : model == VoidFractionModel::divided ? largestDivided
+                                                                 : largestAtCentre;
+    if (largest > allowed * cell) {
         complaints.add(std::string(gasFile) + ": voidFraction",
-                       "the largest particle, " + shown(largest) + " m, is " + shown(largest / cell, 3)
-                           + " times the smallest cell, " + shown(cell)
-                           + " m, and `centre` lays it into one cell; allowed is " + shown(gas.largestParticle, 3)
-                           + ". Write voidFraction divided; or smoothed; use larger cells, or "
-                           + "raise largestParticle.");
+                       size
+                           + (model == VoidFractionModel::divided ? "and `divided` lays a 15th of it into one cell"
+                                                                  : "and `centre` lays it into one cell")
+                           + "; allowed is " + shown(allowed, 3) + ". Write voidFraction "
+                           + (model == VoidFractionModel::divided ? "smoothed;" : "divided; or smoothed;")
+                           + " use larger cells, or raise largestParticle.");
     }
 }
 
@@ -179,7 +233,8 @@ void printGas(const gasProperties& gas, const Foam::fvMesh& mesh)
     Foam::Info << "\nGas: density " << exchange.density << " kg/m3, viscosity " << exchange.viscosity << " Pa s, drag "
                << exchange.drag.c_str() << ", pressure gradient by "
                << (exchange.pressure == PressureModel::modelA ? "modelA" : "modelB") << ", void fraction "
-               << voidFractionModelNames()[static_cast<std::size_t>(exchange.voidFraction)].c_str() << ", laminar, "
+               << voidFractionModelNames()[static_cast<std::size_t>(exchange.voidFraction)].c_str() << ", "
+               << (gas.turbulence.empty() ? "laminar" : "turbulence " + gas.turbulence).c_str() << ", "
                << Foam::returnReduce(mesh.nCells(), Foam::sumOp<Foam::label>()) << " cells\n";
     if (gas.adjustTimeStep) {
         Foam::Info << "    gas step by Courant number " << gas.maxCo << ", at most "

@@ -29,7 +29,7 @@ const dimensionSet dimImpulsePerVolume = dimDensity * dimVelocity;
 
 }  // namespace
 
-gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings)
+gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings, bool turbulent)
     : mesh_(mesh),
       settings_(settings),
       rho_("density", dimDensity, settings.density),
@@ -41,6 +41,7 @@ gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings)
       phi_(IOobject("phi", mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE),
            fvc::flux(U_)),
       alphaf_(resultIO("voidFractionf", mesh, IOobject::NO_WRITE), mesh, dimensionedScalar("one", dimless, 1)),
+      alphaPhi_("alphaPhi", alphaf_ * phi_),
       pressureFlux_(resultIO("pressureFlux", mesh, IOobject::NO_WRITE), mesh,
                     dimensionedScalar(dimPressure * dimLength, Zero)),
       reconstruct_(mesh),
@@ -52,6 +53,9 @@ gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings)
           IOobject("phi", mesh.time().timeName(), mesh, IOobject::MUST_READ).typeHeaderOk<surfaceScalarField>(true))
 {
     mesh_.setFluxRequired(p_.name());
+    if (turbulent) {
+        turbulence_ = std::make_unique<gasTurbulence>(alpha_, U_, alphaPhi_, phi_, nu_.value());
+    }
     result_.velocity.setZero(mesh_.nCells(), 3);
     result_.pressureForce.setZero(mesh_.nCells(), 3);
     const volVectorField gradient(reconstruct_(fvc::snGrad(p_) * mesh_.magSf()));
@@ -85,7 +89,7 @@ void gasFlow::setDrag(const GasSources& sources, double deltaT)
 void gasFlow::solve(const GasSources& sources)
 {
     const dictionary controls = mesh_.solutionDict().subOrEmptyDict("PIMPLE");
-    const label outer = controls.lookupOrDefault<label>("nOuterCorrectors", 1);
+    const label outer = controls.lookupOrDefault<label>("nOuterCorrectors", 2);
     const label corrections = controls.lookupOrDefault<label>("nCorrectors", 2);
     const double deltaT = mesh_.time().deltaTValue();
 
@@ -96,18 +100,25 @@ void gasFlow::solve(const GasSources& sources)
     setVoidFraction(sources.voidFraction);
     setDrag(sources, deltaT);
     for (label iteration = 0; iteration < outer; ++iteration) {
-        const surfaceScalarField alphaPhi("alphaPhi", alphaf_ * phi_);
-        const volScalarField alphaNu("alphaNu", alpha_ * nu_);
-        fvVectorMatrix UEqn(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi, U_, "div(alphaPhi,U)")
-                            - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi), U_)
+        alphaPhi_ = alphaf_ * phi_;
+        const volScalarField alphaNu("alphaNu", turbulence_ ? alpha_ * turbulence_->nuEff() : alpha_ * nu_);
+        fvVectorMatrix UEqn(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_, "div(alphaPhi,U)")
+                            - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_)
                             - fvm::laplacian(alphaNu, U_, "laplacian(alphaNu,U)")
                             - fvc::div(alphaNu * dev2(T(fvc::grad(U_))), "div(alphaNu*dev2(T(grad(U))))"));
         const volScalarField A(UEqn.A());
+        const bool last = iteration == outer - 1;
         for (label corrector = 0; corrector < corrections; ++corrector) {
-            correctPressure(A, UEqn.H(), iteration == outer - 1 && corrector == corrections - 1);
+            correctPressure(A, UEqn.H(), last && corrector == corrections - 1);
+        }
+        if (last) {
+            collectResult(UEqn, deltaT);
         }
     }
-    collectResult(deltaT);
+    if (turbulence_) {
+        alphaPhi_ = alphaf_ * phi_;
+        turbulence_->correct();
+    }
 }
 
 void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, bool last)
@@ -148,7 +159,8 @@ void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, 
     for (label repeat = 0; repeat <= nonOrthogonal; ++repeat) {
         fvScalarMatrix pEqn(fvm::laplacian(alphaf_ * rAf, p_, "laplacian(rAf,p)")
                             == fvc::ddt(alpha_) + fvc::div(alphaf_ * phiH));
-        pEqn.setReference(controls.lookupOrDefault<label>("pRefCell", 0),
+        // One cell of all ranks: where no patch gives the pressure, a second one would be a source of gas.
+        pEqn.setReference(Pstream::master() ? controls.lookupOrDefault<label>("pRefCell", 0) : -1,
                           controls.lookupOrDefault<scalar>("pRefValue", 0));
         pEqn.solve(mesh_.solver(p_.select(last && repeat == nonOrthogonal)));
         if (repeat == nonOrthogonal) {
@@ -162,18 +174,27 @@ void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, 
     U_.correctBoundaryConditions();
 }
 
-void gasFlow::collectResult(double deltaT)
+void gasFlow::collectResult(const fvVectorMatrix& UEqn, double deltaT)
 {
-    const surfaceScalarField Kf(fvc::interpolate(K_, "interpolate(drag)"));
     const volVectorField gradient(reconstruct_(pressureFlux_));
-    const volVectorField drag(rho_
-                              * (K_ * (U_ - reconstruct_(phi_)) + reconstruct_(Kf * phi_ - fvc::flux(S_))));
-    vector given = gSum(vectorField(drag.primitiveField() * mesh_.V().field())) * deltaT;
-    if (settings_.pressure == PressureModel::modelA) {
-        const volVectorField carried(reconstruct_((1 - alphaf_) * pressureFlux_));
-        given -= gSum(vectorField(carried.primitiveField() * mesh_.V().field())) * deltaT;
-    }
+    // The equation's left side without the part that keeps it from creating velocity where the mass does not balance: change,
+    // convection and friction. What flows between cells cancels; the boundary's part is not given to particles.
+    const volVectorField moved((UEqn & U_) + volVectorField(U_ * (fvc::ddt(alpha_) + fvc::div(alphaPhi_))));
+    const scalarField& volumes = mesh_.V().field();
+    const vector given =
+        -deltaT * gSum(vectorField((rho_.value() * moved.primitiveField() + gradient.primitiveField()) * volumes));
     result_.given = toEigen(given);
+    if (settings_.needsGasMotion()) {
+        const volVectorField acceleration(fvc::ddt(U_) + (U_ & fvc::grad(U_)));
+        const volVectorField vorticity(fvc::curl(U_));
+        result_.acceleration.resize(mesh_.nCells(), 3);
+        result_.vorticity.resize(mesh_.nCells(), 3);
+        forAll(U_, cell)
+        {
+            result_.acceleration.row(cell) = toEigen(acceleration[cell]).transpose().array();
+            result_.vorticity.row(cell) = toEigen(vorticity[cell]).transpose().array();
+        }
+    }
     forAll(U_, cell)
     {
         result_.velocity.row(cell) = toEigen(U_[cell]).transpose().array();

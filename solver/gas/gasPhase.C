@@ -4,6 +4,9 @@
 #include "output/postProcessingFile.H"
 #include "settings/checkedDictionary.H"
 
+#include "foamPoissonMesh/conversions.H"
+
+#include "IOdictionary.H"
 #include "coupledPolyPatch.H"
 #include "emptyPolyPatch.H"
 
@@ -43,13 +46,14 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
       dem_(dem),
       times_(times),
       cells_(mesh),
-      flow_(mesh, properties.exchange),
-      coupling_(dem, cells_, properties.exchange, communicator)
+      flow_(mesh, properties.exchange, !properties.turbulence.empty()),
+      coupling_(dem, cells_, properties.exchange, communicator),
+      earlier_(readState(mesh.time()))
 {
     if (properties_.maxDeltaT == 0) {
         properties_.maxDeltaT = mesh.time().deltaTValue();
     }
-    file_ = openPostProcessing(mesh.time(), "gas", "gas.dat", 12);
+    file_ = openPostProcessing(mesh.time(), "gas", "gas.dat", 17);
     if (!file_.is_open()) {
         return;
     }
@@ -62,7 +66,8 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
         file_ << " p_" << name << " in_" << name;
     }
     file_ << " forceX forceY forceZ massCentreX massCentreY massCentreZ solidVolume smallestVoidFraction boundedCells"
-             " boundedVolume givenX givenY givenZ gotX gotY gotZ mismatch"
+             " boundedVolume givenX givenY givenZ gotX gotY gotZ mismatch gasMomentumX gasMomentumY gasMomentumZ"
+             " particleMomentumX particleMomentumY particleMomentumZ"
           << std::endl;
 }
 
@@ -70,7 +75,9 @@ void gasPhase::start(const DemParticles& particles)
 {
     const PhaseTimer timer(times_, Phase::gas);
     if (flow_.continued()) {
-        coupling_.resume(particles, flow_.result(), mesh_.time().deltaTValue());
+        const double duration = earlier_.demSteps > 0 ? static_cast<double>(earlier_.demSteps) * dem_.timeStep()
+                                                      : mesh_.time().deltaTValue();
+        coupling_.resume(particles, flow_.result(), duration, earlier_.ahead);
     } else {
         coupling_.begin(particles);
     }
@@ -90,6 +97,42 @@ void gasPhase::advance(const DemParticles& particles)
     }
     const PhaseTimer timer(times_, Phase::exchange);
     coupling_.handBack(particles, flow_.result(), mesh_.time().deltaTValue());
+}
+
+gasPhase::State gasPhase::readState(const Foam::Time& time)
+{
+    State state;
+    Foam::IOobject header("gas", time.timeName(), "uniform", time, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE,
+                          false);
+    if (!header.typeHeaderOk<Foam::IOdictionary>(true)) {
+        return state;
+    }
+    const Foam::IOdictionary written(header);
+    state.demSteps = written.get<Foam::label>("demSteps");
+    state.nextDemSteps = written.get<Foam::label>("nextDemSteps");
+    state.ahead = toEigen(written.get<Foam::vector>("ahead"));
+    return state;
+}
+
+void gasPhase::writeState(long demSteps) const
+{
+    if (!mesh_.time().writeTime()) {
+        return;
+    }
+    // Before the entries are made: they keep their digits.
+    const unsigned precision = Foam::IOstream::defaultPrecision(17);
+    Foam::IOdictionary state(Foam::IOobject("gas", mesh_.time().timeName(), "uniform", mesh_.time(),
+                                            Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false));
+    state.add("demSteps", static_cast<Foam::label>(demSteps));
+    state.add("nextDemSteps", static_cast<Foam::label>(nextDemSteps(demSteps)));
+    state.add("ahead", toFoam(coupling_.books().ahead));
+    state.regIOobject::write();
+    Foam::IOstream::defaultPrecision(precision);
+}
+
+long gasPhase::firstDemSteps(long ofCase) const
+{
+    return properties_.adjustTimeStep && earlier_.nextDemSteps > 0 ? earlier_.nextDemSteps : ofCase;
 }
 
 long gasPhase::nextDemSteps(long current) const
@@ -120,6 +163,7 @@ void gasPhase::writeLine(double time)
                 << -Foam::gSum(Foam::scalarField(flow_.voidFraction().boundaryField()[patch]
                                                  * flow_.flux().boundaryField()[patch]));
     }
+    const Vector3 gasMomentum = flow_.momentum();
     if (!file_.is_open()) {
         return;
     }
@@ -132,7 +176,10 @@ void gasPhase::writeLine(double time)
           << summary.boundedVolume;
     append(file_, books.given);
     append(file_, books.got);
-    file_ << ' ' << books.mismatch() << std::endl;
+    file_ << ' ' << books.mismatch();
+    append(file_, gasMomentum);
+    append(file_, coupling_.summary().momentum);
+    file_ << std::endl;
 }
 
 std::string gasPhase::describe() const

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas/gasProperties.H"
 
+#include "gas/gasTurbulence.H"
+
 #include "settings/checkedDictionary.H"
 
 #include "dem_coupling/gas/drag_law.hpp"
@@ -45,11 +47,17 @@ gasProperties readGasProperties(const Foam::fileName& casePath, Complaints& comp
     exchange.pressure = entries.oneOf("pressureModel", {"modelA", "modelB"}, "modelA") == "modelB"
                             ? PressureModel::modelB
                             : PressureModel::modelA;
-    entries.oneOf("turbulence", {"laminar"}, "laminar");
+    gas.turbulence = gasTurbulence::modelOf(casePath, complaints);
+    exchange.virtualMass = entries.number("virtualMass", 0);
+    if (exchange.virtualMass < 0) {
+        entries.complain("virtualMass", "found " + shown(exchange.virtualMass)
+                                            + ", but 0 (none) or a number above is expected; a sphere has 0.5.");
+    }
+    exchange.saffmanLift = entries.oneOf("lift", {"none", "Saffman"}, "none") == "Saffman";
     gas.adjustTimeStep = entries.yesNo("adjustTimeStep", false);
     gas.maxCo = entries.positive("maxCo", gas.maxCo);
     gas.maxDeltaT = entries.has("maxDeltaT") ? entries.positive("maxDeltaT", 1) : 0;
-    gas.largestParticle = entries.positive("largestParticle", gas.largestParticle);
+    gas.largestParticle = entries.has("largestParticle") ? entries.positive("largestParticle", 1) : 0;
     entries.refuseUnknownEntries();
     return gas;
 }

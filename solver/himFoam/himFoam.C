@@ -153,8 +153,11 @@ void run(scene& s, MPI_Comm communicator)
     if (gas) {
         gas->start(step.particles());
     }
+    long demSteps = gas ? gas->firstDemSteps(s.demSteps) : s.demSteps;
+    if (demSteps != s.demSteps) {
+        runTime.setDeltaT(static_cast<double>(demSteps) * s.dem->timeStep(), false);
+    }
     double deltaT = runTime.deltaTValue();
-    long demSteps = s.demSteps;
     while (runTime.loop()) {
         if (runTime.deltaTValue() != deltaT) {
             throw std::runtime_error("deltaT was changed during the run; stop and start again to change it.");
@@ -173,6 +176,9 @@ void run(scene& s, MPI_Comm communicator)
             }
         }
         write(s, step, *particles, projection.get(), times);
+        if (gas) {
+            gas->writeState(demSteps);
+        }
         {
             const PhaseTimer timer(times, Phase::output);
             fieldError.update(step);

@@ -49,16 +49,16 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
             s.ownGasMesh = openGasMesh(s.runTime(), complaints);
         }
         if (s.ownGasMesh.valid() || s.mesh.valid()) {
-            checkGasFields(s.gasMesh(), complaints);
+            checkGasFields(*s.settings.gas, s.gasMesh(), complaints);
         }
     }
     if (timeOpens && (!s.settings.gas || s.ownGasMesh.valid() || s.mesh.valid())) {
         checkPressureDrop(s.settings.statistics, s.settings.gas ? &s.gasMesh() : nullptr, complaints);
     }
     if (s.mesh.valid()) {
-        s.poisson = openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints,
-                                    s.settings.field.neutralisingBackground, s.settings.dielectrics,
-                                    s.settings.field.accuracy);
+        s.poisson =
+            openPoissonMesh(s.mesh(), s.settings.field.permittivity, complaints,
+                            s.settings.field.neutralisingBackground, s.settings.dielectrics, s.settings.field.accuracy);
     }
     if (s.poisson) {
         checkConditions(s.settings.field, *s.poisson, complaints);
@@ -108,7 +108,7 @@ void openDem(scene& s, MPI_Comm communicator)
     checkProjectiveCharging(s.settings, *s.dem, complaints);
     s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);
     if (s.settings.gas) {
-        checkGasScene(*s.settings.gas, s.gasMesh(), *s.dem, communicator, complaints);
+        checkGasScene(*s.settings.gas, s.gasMesh(), *s.dem, complaints);
     }
     stopOnComplaints(complaints, "Case and DEM script together", communicator);
     if (s.settings.gas) {

@@ -80,8 +80,7 @@ class Gas(unittest.TestCase):
         self.assertAlmostEqual(got, expected, delta=2e-3*abs(expected))
         # The gas is ahead by the last solve only.
         ahead = rows[-1]["givenZ"] - rows[-1]["gotZ"]
-        self.assertAlmostEqual(ahead, rows[-1]["forceZ"]*5e-4, delta=1e-9*abs(rows[-1]["givenZ"]))
-        self.assertLess(max(row["mismatch"] for row in rows), 1e-12)
+        self.assertAlmostEqual(ahead, rows[-1]["forceZ"]*5e-4, delta=1e-3*rows[-1]["forceZ"]*5e-4)
 
     def test_solid_volume_is_kept_by_every_model(self):
         self.start_at(1.0)
@@ -121,9 +120,8 @@ class Gas(unittest.TestCase):
         continued = self.table("0.011")
         self.assertGreater(len(continued), 15)
         for row in continued:
-            for name, share in (("forceZ", 0.01), ("massCentreZ", 1e-6), ("smallestVoidFraction", 1e-6)):
-                expected = straight[round(row["Time"], 6)][name]
-                self.assertAlmostEqual(row[name], expected, delta=share*abs(expected), msg="%s at %g s" % (name, row["Time"]))
+            for name in ("deltaT", "forceZ", "massCentreZ", "smallestVoidFraction", "gasMomentumZ", "particleMomentumZ"):
+                self.assertEqual(row[name], straight[round(row["Time"], 6)][name], "%s at %g s" % (name, row["Time"]))
 
     def test_the_particles_are_a_lagrangian_cloud_of_the_gas_mesh(self):
         self.start_at(TERMINAL)
@@ -176,7 +174,7 @@ class Gas(unittest.TestCase):
 
     def test_refuses_a_gas_step_below_the_dem_step(self):
         self.case.replace("system/controlDict", "deltaT          5e-4;", "deltaT          5e-6;")
-        self.refused("the gas step 5e-06 s is below the DEM step 1e-05 s")
+        self.refused("deltaT: found 5e-06 s, but the DEM takes steps of 1e-05 s")
 
     def test_refuses_a_particle_larger_than_a_cell_that_is_to_take_it_whole(self):
         self.case.replace("constant/gasProperties", "divided;", "centre; largestParticle 0.01;")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/gas/drag_law.hpp"
+#include "dem_coupling/gas/lift.hpp"
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,19 @@ TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
         EXPECT_NEAR(number * b * at.slip / gradientA, 1, 1e-13) << name;
         EXPECT_NEAR(b * at.slip / (a * at.slip + volume(at) * gradientA), 1, 1e-13) << name;
     }
+}
+
+TEST(SaffmanLift, drawsASphereThatLagsToWhereTheGasIsFaster)
+{
+    // u = rate z along x, curl u = rate along y; the sphere is slower by 0.2 m/s.
+    const double rate = 80;
+    const Vector3 lift = saffmanLift(1.2, 1.8e-5, 1e-4, Vector3(0.2, 0, 0), Vector3(0, rate, 0));
+    // 6.46 r^2 sqrt(rho mu rate) w, Saffman 1968
+    EXPECT_NEAR(lift[2], 6.46 * 0.25e-8 * std::sqrt(1.2 * 1.8e-5 * rate) * 0.2, 1e-15 * lift[2] + 1e-25);
+    EXPECT_EQ(lift[0], 0);
+    EXPECT_EQ(lift[1], 0);
+    EXPECT_LT(saffmanLift(1.2, 1.8e-5, 1e-4, Vector3(-0.2, 0, 0), Vector3(0, rate, 0))[2], 0);
+    EXPECT_EQ(saffmanLift(1.2, 1.8e-5, 1e-4, Vector3(0.2, 0, 0), Vector3::Zero()).norm(), 0);
 }
 
 }  // namespace

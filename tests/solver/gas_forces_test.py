@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a gas does to single spheres: drag in balance, added mass, lift; and its turbulence. Through himFoam."""
+
+import math
+import tempfile
+import unittest
+
+from gas_box import GasBox
+
+ALL = ("left", "right", "front", "back", "bottom", "top")
+
+
+class GasCase(unittest.TestCase):
+    def box(self, *arguments, **entries):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return GasBox(folder.name, *arguments, **entries)
+
+
+class Forces(GasCase):
+    def test_a_dust_grain_falls_at_its_terminal_speed_though_the_dem_step_is_not_far_below_its_relaxation_time(self):
+        """15 um: tau = 6.7e-4 s; drag that is implicit without the weight falls by dt/tau = 15 % too fast."""
+        d, rho, gas, mu, g = 15e-6, 960.0, 1.149, 1.766e-5, 9.81
+        speed = (rho - gas)*g*d*d/(18*mu)
+        for _ in range(100):
+            speed = (rho - gas)*g*d*d/(18*mu)/(1 + 0.15*(gas*speed*d/mu)**0.687)
+        box = self.box([((0.02, 0.02, 0.03), (0, 0, -speed), d, rho)], walls=ALL, density=gas, viscosity=mu, gravity=-g,
+                       step=1e-3, demStep=1e-4, end=0.05)
+        rows = box.rows()
+        found = -(rows[-1]["massCentreZ"] - rows[9]["massCentreZ"])/(rows[-1]["Time"] - rows[9]["Time"])
+        self.assertAlmostEqual(found, speed, delta=2e-3*speed)
+
+    def test_a_light_sphere_that_is_let_go_takes_half_of_the_displaced_mass_along(self):
+        d, rho, gas, g = 2e-3, 500.0, 1000.0, 9.81
+        for added in (0.0, 0.5, 2.0):
+            with self.subTest(added=added):
+                box = self.box([((0.02, 0.02, 0.02), (0, 0, 0), d, rho)], walls=ALL, density=gas, viscosity=1e-6, gravity=-g,
+                               cells=5, step=1e-4, demStep=1e-5, end=2e-3, more="virtualMass %r;" % added)
+                rows = box.rows()
+                mass = rho*math.pi/6*d**3
+                found = (rows[-1]["particleMomentumZ"] - rows[0]["particleMomentumZ"])/mass/(rows[-1]["Time"] - rows[0]["Time"])
+                expected = (gas - rho)*g/(rho + added*gas)
+                # Drag at the speed of the end, 1 cm/s or less, takes less than 2 %.
+                self.assertAlmostEqual(found, expected, delta=0.03*expected)
+
+    def test_a_sphere_that_lags_in_a_shear_flow_is_lifted_to_where_the_gas_is_faster(self):
+        size, cells, rate, d, gas, mu = 0.04, 8, 50.0, 2e-4, 1.2, 1.8e-5
+        height = size/cells
+        layers = [(0.5 + layer)*height*rate for layer in range(cells)]
+        U = "nonuniform List<vector> %d (%s)" % (cells**3, " ".join("(%r 0 0)" % layers[n//cells**2] for n in range(cells**3)))
+        place = (0.5 + cells//2)*height
+        forces = []
+        for lift in ("none", "Saffman"):
+            box = self.box([((place, place, place), (0, 0, 0), d, 1e6)], size=size, cells=cells, walls=("bottom", "top"), U=U,
+                           wall_U={"top": "(%r 0 0)" % (size*rate)}, density=gas, viscosity=mu, end=2e-3,
+                           more="lift %s;" % lift)
+            rows = box.rows()
+            forces.append((rows[-1]["gotZ"] - rows[4]["gotZ"])/(rows[-1]["Time"] - rows[4]["Time"]))
+        expected = 1.615*d*d*math.sqrt(gas*mu/rate)*(rate*place)*rate
+        self.assertAlmostEqual(forces[0], 0, delta=0.01*expected)
+        self.assertAlmostEqual(forces[1], expected, delta=0.02*expected)
+
+    def test_refuses_a_gravity_that_is_not_the_scripts(self):
+        box = self.box([((0.02, 0.02, 0.02), (0, 0, 0), 1e-3, 1000.0)], walls=ALL, gravity=-9.81)
+        box.replace("constant/gasProperties", "gravity (0 0 -9.81);", "gravity (0 0 9.81);")
+        result = box.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("gravity: found (0 0 9.81), but the DEM script has (0 0 -9.81)", " ".join(result.text.split()))
+
+    def test_refuses_what_no_void_fraction_model_can_take(self):
+        for model, text in (("centre;", "`centre` lays it into one cell; allowed is 1."),
+                            ("divided;", "`divided` lays a 15th of it into one cell; allowed is 2."),
+                            ("smoothed; smoothingLength 1e-3;", "and is spread over 0.001 m only. Write at least its diameter.")):
+            with self.subTest(model=model):
+                box = self.box([((0.02, 0.02, 0.02), (0, 0, 0), 0.012, 1000.0)], voidFraction=model)
+                result = box.run("-dry-run")
+                self.assertEqual(result.code, 1)
+                self.assertIn(text, " ".join(result.text.split()))
+
+    def test_refuses_large_spheres_that_only_come_later(self):
+        box = self.box([], walls=ALL)
+        box.replace("DEM/in.box", "fix move all", """region all block 0 0.04 0 0.04 0 0.04 units box
+fix shape all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant 6e-3
+fix sizes all particledistribution/discrete 15485867 1 shape 1.0
+fix fill all insert/pack seed 32452843 distributiontemplate sizes insert_every 100 overlapcheck yes region all particles_in_region 2
+fix move all""")
+        result = box.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("the largest particle, 0.012 m, is 2.4 times the smallest cell", " ".join(result.text.split()))
+
+    def test_refuses_a_time_scheme_that_is_not_eulers(self):
+        box = self.box([], walls=ALL)
+        box.replace("system/fvSchemes", "default Euler", "default backward")
+        result = box.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("system/fvSchemes: ddtSchemes: found backward, but the gas takes Euler only", " ".join(result.text.split()))
+
+
+class Turbulence(GasCase):
+    GRAIN = [((0.02, 0.02, 0.02), (0, 0, 0), 1e-5, 1000.0)]
+
+    def turbulent(self, k, epsilon, walls, active="on", model="kEpsilon", **entries):
+        box = self.box(self.GRAIN, walls=walls, density=1.2, viscosity=1.8e-5, **entries)
+        box.write("constant/turbulenceProperties",
+                  "simulationType RAS; RAS { RASModel %s; turbulence %s; printCoeffs no; }" % (model, active))
+        box.field("k", "volScalarField", "0 2 -2 0 0 0 0", "uniform %r" % k, {name: "zeroGradient" for name in walls})
+        box.field("epsilon", "volScalarField", "0 2 -3 0 0 0 0", "uniform %r" % epsilon, {name: "zeroGradient" for name in walls})
+        box.field("nut", "volScalarField", "0 2 -1 0 0 0 0", "uniform 0", {name: "calculated; value uniform 0" for name in walls})
+        return box
+
+    def test_turbulence_of_a_gas_at_rest_decays_as_k_epsilon_says(self):
+        """dk/dt = -e, de/dt = -C2 e^2/k: k = k0 (1 + (C2 - 1) e0 t/k0)^(-1/(C2 - 1)), C2 = 1.92."""
+        k, epsilon, C2, time = 0.01, 0.1, 1.92, 0.1
+        box = self.turbulent(k, epsilon, walls=(), cells=4, step=2e-4, demStep=1e-5, end=time)
+        box.replace("system/controlDict", "writeInterval 100000", "writeInterval 500")
+        box.replace("system/controlDict", "writeFormat binary", "writeFormat ascii")
+        box.rows()
+        text = (box.path / "0.1/k").read_text().split("internalField")[1].split("boundaryField")[0]
+        values = [float(word) for word in text.split("(\n")[1].split("\n)")[0].split()]
+        self.assertLess(max(values) - min(values), 1e-3*k)
+        found = sum(values)/len(values)
+        expected = k*(1 + (C2 - 1)*epsilon*time/k)**(-1/(C2 - 1))
+        self.assertAlmostEqual(found, expected, delta=2e-3*k)
+
+    def test_the_gas_feels_the_viscosity_of_its_turbulence(self):
+        """Frozen k and epsilon give nut = 0.09 k^2/epsilon everywhere; a shear wave decays as in a laminar gas of nu + nut."""
+        k, epsilon = 0.01, 0.1
+        nut = 0.09*k*k/epsilon
+        cells, size = 8, 0.04
+        wave = [math.cos(2*math.pi*(layer + 0.5)/cells) for layer in range(cells)]
+        U = "nonuniform List<vector> %d (%s)" % (cells**3, " ".join("(%r 0 0)" % (1 + wave[n//cells**2]) for n in range(cells**3)))
+        left = []
+        for case in (self.turbulent(k, epsilon, walls=(), active="off", U=U, end=0.05, step=1e-3, demStep=1e-4, outer=3),
+                     self.box(self.GRAIN, density=1.2, viscosity=1.2*(1.8e-5/1.2 + nut), U=U, end=0.05, step=1e-3, demStep=1e-4, outer=3)):
+            case.replace("system/controlDict", "writeInterval 100000", "writeInterval 50")
+            case.replace("system/controlDict", "writeFormat binary", "writeFormat ascii")
+            case.rows()
+            values = (case.path / "0.05/U").read_text().split("(\n", 1)[1].split("\n)", 1)[0].splitlines()
+            speeds = [float(value.strip("()").split()[0]) for value in values]
+            left.append(2*sum((speed - 1)*wave[n//cells**2] for n, speed in enumerate(speeds))/cells**3)
+        h = size/cells
+        rate = (1.8e-5/1.2 + nut)*4/h**2*math.sin(math.pi/cells)**2     # of the mesh's own laplacian
+        self.assertAlmostEqual(left[0], left[1], delta=1e-6)
+        self.assertAlmostEqual(left[0], (1 + rate*1e-3)**-50, delta=1e-4)
+
+    def test_every_model_that_is_offered_starts(self):
+        box = self.turbulent(0.01, 0.1, walls=(), active="on")
+        result = box.run("-dry-run")
+        self.assertEqual(result.code, 0, result.text[-2000:])
+        self.assertIn("turbulence kEpsilon", result.text)
+        for kind, models in (("RAS", ("RNGkEpsilon", "realizableKE")), ("LES", ("Smagorinsky", "WALE", "kEqn", "dynamicKEqn"))):
+            for model in models:
+                with self.subTest(model=model):
+                    box.write("constant/turbulenceProperties",
+                              "simulationType %s; %s { %sModel %s; turbulence on; printCoeffs no; delta cubeRootVol; "
+                              "cubeRootVolCoeffs { deltaCoeff 1; } filter simple; }" % (kind, kind, kind, model))
+                    result = box.run("-dry-run")
+                    self.assertEqual(result.code, 0, result.text[-2000:])
+
+    def test_an_unknown_model_is_refused_with_the_known_and_a_missing_field_by_its_name(self):
+        box = self.turbulent(0.01, 0.1, walls=(), model="kEpsilonn")
+        result = box.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("RASModel: unknown name `kEpsilonn`; known: RNGkEpsilon, kEpsilon, kOmegaSST, realizableKE", " ".join(result.text.split()))
+        box = self.turbulent(0.01, 0.1, walls=())
+        (box.path / "0/epsilon").unlink()
+        result = box.run("-dry-run")
+        self.assertEqual(result.code, 1)
+        self.assertIn("constant/turbulenceProperties: kEpsilon: ", result.text)
+        self.assertIn("epsilon", result.text.split("kEpsilon: ")[1])
+
+
+if __name__ == "__main__":
+    unittest.main()

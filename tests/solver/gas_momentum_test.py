@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Momentum of gas and particles together, in boxes without a boundary, through himFoam."""
+
+import math
+import random
+import tempfile
+import unittest
+
+from gas_box import GasBox, vector
+
+
+def spheres(number, size, diameter, speed=0.5, seed=1):
+    """Spheres on a shaken lattice, so that they meet now and then."""
+    random.seed(seed)
+    side = math.ceil(number**(1/3))
+    places = [((i + 0.5)*size/side, (j + 0.5)*size/side, (k + 0.5)*size/side)
+              for i in range(side) for j in range(side) for k in range(side)]
+    return [(tuple(x + 0.1*diameter*random.uniform(-1, 1) for x in place), tuple(random.uniform(-speed, speed) for _ in range(3)),
+             diameter, 1000.0) for place in random.sample(places, number)]
+
+
+def difference(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def size(vector):
+    return math.sqrt(sum(x*x for x in vector))
+
+
+class Momentum(unittest.TestCase):
+    def box(self, *arguments, **entries):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return GasBox(folder.name, *arguments, **entries)
+
+    def check_books(self, rows):
+        """Gas: what it has less than at the start it gave. Particles: what they have more they got. Both to rounding."""
+        first, scale = rows[0], max(size(vector(row, "gasMomentum")) + size(vector(row, "particleMomentum")) for row in rows)
+        for row in rows:
+            for has, moved, sign in (("gasMomentum", "given", -1), ("particleMomentum", "got", 1)):
+                gained = difference(vector(row, has), vector(first, has))
+                booked = [sign*x for x in difference(vector(row, moved), vector(first, moved))]
+                self.assertLess(size(difference(gained, booked)), 1e-12*scale, "%s at %g s" % (has, row["Time"]))
+
+    def test_in_a_box_without_walls_momentum_of_gas_and_particles_is_kept_for_ten_thousand_steps(self):
+        rows = self.box(spheres(6, 0.02, 3e-3), size=0.02, cells=4, U="uniform (1 0.5 -0.2)", step=2e-5, demStep=2e-5, end=0.2,
+                        more="virtualMass 0.5; lift Saffman;").rows()
+        self.assertEqual(len(rows), 10000)
+        self.check_books(rows)
+        # The sum of both moves by no more than what one solve gives ahead of the DEM, and does not drift.
+        total = [[x + y for x, y in zip(vector(row, "gasMomentum"), vector(row, "particleMomentum"))] for row in rows]
+        ahead = [difference(vector(row, "given"), vector(row, "got")) for row in rows]
+        start = [x + y for x, y in zip(total[0], ahead[0])]
+        for now, owed in zip(total, ahead):
+            self.assertLess(size(difference([x + y for x, y in zip(now, owed)], start)), 1e-12*size(start))
+        typical = sorted(size(owed) for owed in ahead[-1000:])[500]      # some steps move a sphere to another cell
+        self.assertLess(typical, 1e-4*size(start))
+
+    def test_books_close_for_every_void_fraction_model_and_both_pressure_models(self):
+        for model in ("centre;", "divided;", "smoothed; smoothingLength 8e-3;"):
+            for pressure in ("modelA", "modelB"):
+                with self.subTest(model=model, pressure=pressure):
+                    box = self.box(spheres(40, 0.04, 4e-3), U="uniform (1 0.5 -0.2)", voidFraction=model,
+                                   more="pressureModel %s;" % pressure, end=3e-3)
+                    self.check_books(box.rows())
+
+    def test_two_outer_correctors_leave_less_to_give_back(self):
+        """What the first iteration's fluxes do wrong, because they do not fit the void fraction of the moment."""
+        wrong = []
+        for outer in (1, 2):
+            rows = self.box(spheres(40, 0.04, 4e-3), U="uniform (1 0.5 -0.2)", outer=outer).rows()
+            wrong.append(max(row["mismatch"] for row in rows[20:]))
+        self.assertLess(wrong[1], 0.05*wrong[0])
+
+    def test_a_run_whose_step_follows_the_courant_number_continues_bit_for_bit(self):
+        box = self.box(spheres(6, 0.02, 3e-3), size=0.02, cells=4, U="uniform (1 0.5 -0.2)", step=2e-5, end=8e-3,
+                       more="adjustTimeStep yes; maxCo 0.05; maxDeltaT 2e-4;")
+        box.replace("system/controlDict", "writeInterval 100000", "writeInterval 20")
+        straight = box.rows()
+        self.assertGreater(max(row["deltaT"] for row in straight), 5e-5)
+        start = sorted((path.name for path in box.path.glob("0.*")), key=float)[0]
+        box.replace("system/controlDict", "startTime 0;", "startTime %s;" % start)
+        continued = box.rows(start=start)
+        self.assertEqual(len(continued), len(straight) - 20)
+        for row, expected in zip(continued, straight[20:]):
+            for name in ("deltaT", "forceX", "massCentreX", "gasMomentumX", "particleMomentumX"):
+                self.assertEqual(row[name], expected[name], "%s at %g s" % (name, row["Time"]))
+
+    def test_every_number_of_ranks_gives_the_same_gas_where_no_patch_gives_a_pressure(self):
+        results = {}
+        for ranks in (1, 2, 4):
+            rows = self.box(spheres(40, 0.04, 4e-3), U="uniform (1 0.5 -0.2)", voidFraction="divided;").rows(ranks)
+            self.check_books(rows)
+            results[ranks] = rows[-1]
+        for ranks in (2, 4):
+            for name in ("given", "got"):
+                off = size(difference(vector(results[ranks], name), vector(results[1], name)))
+                self.assertLess(off, 1e-6*size(vector(results[1], name)), "%s on %d ranks" % (name, ranks))
+
+
+if __name__ == "__main__":
+    unittest.main()
