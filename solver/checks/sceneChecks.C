@@ -91,10 +91,12 @@ long demStepsPerUpdate(double deltaT, double timeStep, Complaints& complaints)
 {
     const double ratio = deltaT / timeStep;
     if (ratio < 1 - ratioTolerance) {
-        complaints.add("system/controlDict: deltaT",
-                       "found " + shown(deltaT) + " s, but the DEM takes steps of " + shown(timeStep)
-                           + " s (timestep in the DEM script), and field and gas can not take "
-                             "shorter ones. Raise deltaT, or lower timestep.");
+        complaints.add(
+            "system/controlDict: deltaT",
+            "found " + shown(deltaT, 12) + " s, but the DEM takes steps of " + shown(timeStep, 12)
+                + " s (timestep in the DEM script), and field and gas can not take shorter ones. The nearest "
+                  "allowed deltaT is "
+                + shown(timeStep, 15) + ".");
         return 0;
     }
     const double nearest = std::max(1.0, std::round(ratio));
