@@ -93,29 +93,50 @@ def spheres(rows, radius, density):
     return text + "fix motion all nve/sphere\n"
 
 
-def run(folder, text, columns, every, steps, thermo=None):
-    """Runs a script with a dump; returns its frames: {tag: {column: value}} per dumped step, that of step 0 included. With
-    `thermo`, words like "f_tribo[1] f_field", also their values per dumped step."""
-    os.makedirs(folder, exist_ok=True)
+class Stopped(SystemExit):
+    """A program ended with an error. `report`: what its log says of it; `frames`: those before it."""
+
+    def __init__(self, program, log, frames):
+        super().__init__(f"{program} stopped; see {log}")
+        with open(log, errors="replace") as file:
+            text = file.read()
+        self.report = " ".join(text[text.rfind("ERROR"):].split()) if "ERROR" in text else text[-500:]
+        self.frames = frames
+
+
+def dump(columns, every):
+    """Lines of a script that write `columns` of all spheres to out.dump with all digits."""
     formats = " ".join(["%.17g"]*len(columns))
-    text += f"""dump out all custom {every} out.dump id {' '.join(columns)}
-dump_modify out format "%d {formats}" sort id
-thermo_style custom step atoms {thermo or 'ke'}
-thermo_modify format float %.17g lost warn
-thermo {every if thermo else max(steps, 1)}
+    return f'dump out all custom {every} out.dump id {" ".join(columns)}\ndump_modify out format "%d {formats}" sort id\n'
+
+
+def read_frames(path, columns):
+    """Frames of a dump: {tag: {column: value}} per dumped step."""
+    if not os.path.exists(path):
+        return []
+    with open(path) as file:
+        blocks = file.read().split("ITEM: TIMESTEP")[1:]
+    rows = [[row.split() for row in block.split("ITEM: ATOMS")[1].splitlines()[1:]] for block in blocks]
+    return [{int(row[0]): dict(zip(columns, map(float, row[1:]))) for row in frame} for frame in rows]
+
+
+def run(folder, text, columns, every, steps, thermo=None, lost="warn"):
+    """Runs a script with a dump; returns its frames: {tag: {column: value}} per dumped step, that of step 0 included. With
+    `thermo`, words like "f_tribo[1] f_field", also their values per dumped step. `lost`: what LIGGGHTS does when spheres are gone,
+    `error` looks after every dump. Raises Stopped."""
+    os.makedirs(folder, exist_ok=True)
+    text += dump(columns, every) + f"""thermo_style custom step atoms {thermo or 'ke'}
+thermo_modify format float %.17g lost {lost}
+thermo {every if thermo or lost == 'error' else max(steps, 1)}
 run {steps}
 """
     with open(os.path.join(folder, "in.scene"), "w") as file:
         file.write(text)
     with open(os.path.join(folder, "log.liggghtsHim"), "w") as log:
         done = subprocess.run(["liggghtsHim", "-in", "in.scene", "-log", "none"], cwd=folder, stdout=log, stderr=subprocess.STDOUT)
+    frames = read_frames(os.path.join(folder, "out.dump"), columns)
     if done.returncode:
-        raise SystemExit(f"liggghtsHim stopped; see {folder}/log.liggghtsHim")
-    frames = []
-    with open(os.path.join(folder, "out.dump")) as file:
-        for block in file.read().split("ITEM: TIMESTEP")[1:]:
-            rows = [row.split() for row in block.split("ITEM: ATOMS")[1].splitlines()[1:]]
-            frames.append({int(row[0]): dict(zip(columns, map(float, row[1:]))) for row in rows})
+        raise Stopped("liggghtsHim", f"{folder}/log.liggghtsHim", frames)
     if thermo is None:
         return frames
     with open(os.path.join(folder, "log.liggghtsHim")) as file:

@@ -2,26 +2,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the stability suite, holds every scene to its law and writes runs/report.md and hardCases.png.
 
-Usage: check.py [-short] [-long] [-only contact|bed|headOn|collapse|orbit|wall|sizes|neighbours|limiter|mesh]
+Usage: check.py [-short] [-long] [-only contact|bed|headOn|collapse|orbit|wall|sizes|neighbours|limiter|mesh|held|limits]
 """
 
 import sys
 
 import contacts
 import energies
+import held
+import limits
 import mesh
 
 SCENES = {
     "contact": contacts.oscillating, "bed": contacts.bed, "headOn": contacts.head_on, "collapse": energies.collapse, "orbit": energies.orbit, "wall": energies.wall,
-    "sizes": contacts.sizes, "neighbours": contacts.neighbours, "limiter": energies.limiter, "mesh": mesh.collapse,
+    "sizes": contacts.sizes, "neighbours": contacts.neighbours, "limiter": energies.limiter, "mesh": mesh.collapse, "held": held.held,
+    "limits": limits.limits,
 }
 
 
 class Report:
     """Collects what must hold, tables, and curves for the picture."""
 
-    def __init__(self, short, long):
-        self.short, self.long = short, long
+    def __init__(self, short, long, only=None):
+        self.short, self.long, self.only = short, long, only
         self.summary, self.details, self.failed, self.curves = [], [], [], {}
 
     def title(self, text):
@@ -65,8 +68,8 @@ def draw(curves):
 
 def main():
     words = sys.argv[1:]
-    report = Report("-short" in words, "-long" in words)
     only = words[words.index("-only") + 1] if "-only" in words else None
+    report = Report("-short" in words, "-long" in words, only)
     if only and only not in SCENES:
         raise SystemExit(f"unknown scene '{only}'; known: {', '.join(SCENES)}")
     for name, scene in SCENES.items():
