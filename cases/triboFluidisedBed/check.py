@@ -43,7 +43,10 @@ class Run:
 
     def segregation(self):
         """Mean charge within 1.25 diameters of a wall over that of the rest, in the last time-averaged profile."""
-        last = max(glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat"), key=lambda p: float(p.split("/")[-2]))
+        profiles = glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat")
+        if not profiles:        # of a run that was stopped before its first checkpoint
+            return np.nan
+        last = max(profiles, key=lambda p: float(p.split("/")[-2]))
         distance, density, charge = np.loadtxt(last, usecols=(0, 1, 2), unpack=True)
         share = density*(distance[-1] + distance[0] - distance)     # in a square column the shells get smaller inwards
         layer = distance < 1.25*DIAMETER
@@ -109,10 +112,13 @@ def main():
                 print(f"    the books are off by {worst:.1e}: FAILED")
         gas = read(f"runs/{size}/{run.name}", "gas/*/gas.dat")
         steps = (gas["Time"][-1] - gas["Time"][0])/np.mean(gas["deltaT"])
-        worst = np.max(gas["mismatch"])
-        print(f"    momentum of gas and particles over {steps:.0f} gas steps: off by {worst:.1e} of all that was exchanged: "
-              f"{'ok' if worst < 1e-12 else 'FAILED'}")
-        ok = ok and worst < 1e-12
+        # The gas is ahead by what its last solve gave; anything that piled up would show.
+        ahead = np.sqrt(sum((gas["given" + axis] - gas["got" + axis])**2 for axis in "XYZ"))
+        one = np.sqrt(sum(gas["force" + axis]**2 for axis in "XYZ"))*gas["deltaT"]
+        worst = ahead[-1]/np.mean(one)
+        print(f"    momentum: after {steps:.0f} gas steps the gas is ahead of the particles by {worst:.2f} steps' exchange: "
+              f"{'ok' if worst < 2 else 'FAILED'}")
+        ok = ok and worst < 2
     os.makedirs("doc", exist_ok=True)
     draw(size, runs, weight)
     return 0 if ok else 1

@@ -85,7 +85,9 @@ double runReport::secondsLeft() const
 {
     const double simulated = recent_.back().first - recent_.front().first;
     const double wall = recent_.back().second - recent_.front().second;
-    return simulated > 0 ? (runTime_.endTime().value() - runTime_.value()) * wall / simulated : 0;
+    // The last step may pass the end.
+    const double left = std::max(0.0, runTime_.endTime().value() - runTime_.value());
+    return simulated > 0 ? left * wall / simulated : 0;
 }
 
 void runReport::beginStep()
