@@ -43,10 +43,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void refuseParticlesOutside(const DemParticles& particles, const foamPoissonMesh& mesh, MPI_Comm communicator,
-                            Complaints& complaints)
+void refuseParticlesOutside(const DemPort& dem, const DemParticles& particles, const foamPoissonMesh& mesh,
+                            MPI_Comm communicator, Complaints& complaints)
 {
-    MeshLocator locator(mesh, communicator);
+    MeshLocator locator(mesh, communicator, dem.box(), dem.periodic());
     locator.locate(particles.position);
     std::string named;
     std::size_t outside = 0;
@@ -210,7 +210,7 @@ void checkParticlesInMesh(const caseSettings& settings, const DemPort& dem, cons
                                                 + shownBox(dem.box())
                                                 + ", do not overlap. Check the units of both (metres).");
     } else if (settings.field.outsideMesh == OutsideMesh::error) {
-        refuseParticlesOutside(particles, mesh, communicator, complaints);
+        refuseParticlesOutside(dem, particles, mesh, communicator, complaints);
     }
     if (!mesh.potentialIsFixed() && !mesh.neutralisingBackground()) {
         refuseChargeWithoutVoltage(settings, dem, particles, communicator, complaints);

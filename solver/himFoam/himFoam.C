@@ -115,10 +115,12 @@ void run(scene& s, MPI_Comm communicator)
     if (s.settings.gas) {
         gas.emplace(s.gasMesh(), *s.settings.gas, *s.dem, times, communicator);
     }
-    const auto particles = s.poisson
-                               ? particleWriter::create(runTime, &s.poisson->mesh(), s.poisson.get(), communicator)
-                           : gas ? particleWriter::create(runTime, &s.gasMesh(), &gas->cells(), communicator)
-                                 : particleWriter::create(runTime, nullptr, nullptr, communicator);
+    const Foam::fvMesh* cloudMesh = s.poisson ? &s.poisson->mesh() : gas ? &s.gasMesh() : nullptr;
+    const CellMesh* cloudCells = s.poisson ? static_cast<const CellMesh*>(s.poisson.get())
+                                 : gas     ? &gas->cells()
+                                           : nullptr;
+    const auto particles =
+        particleWriter::create(runTime, cloudMesh, cloudCells, s.dem->box(), s.dem->periodic(), communicator);
     fieldErrorTable fieldError(runTime, s.settings.fieldError, s.settings.field, s.poisson.get(), s.dem->box(),
                                s.dem->periodic(), communicator);
     const auto projection = projectiveCharging::create(runTime, s.settings.projectiveCharging, *s.dem,

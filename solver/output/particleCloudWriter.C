@@ -29,8 +29,9 @@ Foam::vector toFoam(const std::array<double, 3>& v)
 
 }  // namespace
 
-particleCloudWriter::particleCloudWriter(const Foam::fvMesh& mesh, const CellMesh& cells, MPI_Comm communicator)
-    : mesh_(mesh), locator_(cells, communicator), exchange_(communicator)
+particleCloudWriter::particleCloudWriter(const Foam::fvMesh& mesh, const CellMesh& cells, const Box& demBox,
+                                         const std::array<bool, 3>& periodic, MPI_Comm communicator)
+    : mesh_(mesh), locator_(cells, communicator, demBox, periodic), exchange_(communicator)
 {
 }
 
@@ -47,7 +48,13 @@ void particleCloudWriter::write(const DemParticles& particles, const Points& fie
         targetRanks.push_back(places(i, 2) == 1 ? static_cast<int>(places(i, 0)) : -1);
         cells.push_back(static_cast<long>(places(i, 1)));
     }
-    const std::vector<particleRecord> records = collectRecords(particles, field, targetRanks, cells, exchange_);
+    std::vector<particleRecord> records = collectRecords(particles, field, targetRanks, cells, exchange_);
+    for (particleRecord& record : records) {
+        const Vector3 shift = locator_.shiftIntoBox(Vector3(record.position.data()));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            record.position[axis] += shift[static_cast<Index>(axis)];
+        }
+    }
 
     Foam::passiveParticleCloud cloud(mesh_, "particles", Foam::IDLList<Foam::passiveParticle>());
     for (const particleRecord& record : records) {

@@ -54,10 +54,11 @@ std::vector<particleRecord> collectRecords(const DemParticles& particles, const 
 }
 
 std::unique_ptr<particleWriter> particleWriter::create(const Foam::Time& runTime, const Foam::fvMesh* mesh,
-                                                       const CellMesh* cells, MPI_Comm communicator)
+                                                       const CellMesh* cells, const Box& demBox,
+                                                       const std::array<bool, 3>& periodic, MPI_Comm communicator)
 {
     if (mesh) {
-        return std::make_unique<particleCloudWriter>(*mesh, *cells, communicator);
+        return std::make_unique<particleCloudWriter>(*mesh, *cells, demBox, periodic, communicator);
     }
     return std::make_unique<particleVtpWriter>(runTime, communicator);
 }

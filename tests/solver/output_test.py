@@ -144,5 +144,33 @@ class OutputWithoutMesh(unittest.TestCase):
         self.assertIn("floor zplane grounded grounded conductor", " ".join(self.log.split()))
 
 
+def periodic_in_x(case):
+    """One sphere leaves the box through its upper end in x, another through the lower one; LIGGGHTS brings neither back before
+    it has moved by half the skin of its lists."""
+    case.replace("system/blockMeshDict", "sides  { type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }", """
+    left { type cyclic; neighbourPatch right; faces ((0 4 7 3)); }
+    right { type cyclic; neighbourPatch left; faces ((1 2 6 5)); }
+    sides { type wall; faces ((0 1 5 4) (3 7 6 2)); }""")
+    case.replace("0/electricPotential", "sides {", "left { type cyclic; } right { type cyclic; } sides {")
+    case.tool("blockMesh")
+    case.replace("DEM/in.cube", "boundary f f f", "boundary p f f")
+    case.replace("DEM/in.cube", "block -0.001 0.101", "block 0. 0.1")
+    case.replace("DEM/in.cube", "single 0.0231 0.0312 0.0214", "single 0.0998 0.0312 0.0214")
+    case.replace("DEM/in.cube", "single 0.0742 0.0263 0.0317", "single 0.0002 0.0263 0.0317")
+
+
+class OutputOfPeriodicBoxes(unittest.TestCase):
+    def test_particles_that_have_strayed_out_of_the_box_are_written_where_their_copies_are(self):
+        for ranks in (1, 2):
+            with tempfile.TemporaryDirectory() as folder:
+                case = TinyCase(folder, "him")
+                periodic_in_x(case)
+                if ranks > 1:
+                    case.decompose(ranks, (2, 1, 1))
+                result = case.run(ranks=ranks)
+                self.assertEqual(result.code, 0, result.text[-2000:])
+                self.assertEqual(sorted(case.particles("0.002")), list(range(1, 9)))
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -192,11 +192,11 @@ class TinyCase:
         # LIGGGHTS may add a line of arbitrary bytes to its message.
         return Result(done.returncode, done.stdout.decode(errors="replace"))
 
-    def decompose(self, ranks):
-        """Cuts the mesh, when there is one, in slices along z."""
+    def decompose(self, ranks, pieces=None):
+        """Cuts the mesh, when there is one: in `pieces` along x, y and z, which is slices along z unless given."""
         if (self.path / "constant/polyMesh").exists():
-            self.write("system/decomposeParDict", "numberOfSubdomains %d; method simple; simpleCoeffs { n (1 1 %d); delta 0.001; }"
-                       % (ranks, ranks))
+            self.write("system/decomposeParDict", "numberOfSubdomains %d; method simple; simpleCoeffs { n (%d %d %d); delta 0.001; }"
+                       % (ranks, *(pieces or (1, 1, ranks))))
             self.tool("decomposePar", "-force")
 
     def charge_table(self, time="0"):
