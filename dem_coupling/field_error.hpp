@@ -44,9 +44,11 @@ public:
     /// The reference for a method: in a rectangular box of grounded, insulated or periodic sides the exact field with all
     /// images; on another mesh of not too many cells a stricter p3m (strict_p3m.hpp); without a mesh and without images the sum
     /// over all pairs. Null where there is none, or where the method is its own reference. Collective.
-    /// @param mesh  may be null; outlives the reference
+    /// @param mesh    may be null; outlives the reference
+    /// @param reason  set to why there is none, a clause for a message
     static std::unique_ptr<FieldReference> find(const FieldSettings& settings, PoissonMesh* mesh, const Box& demBox,
-                                                const std::array<bool, 3>& periodic, MPI_Comm communicator);
+                                                const std::array<bool, 3>& periodic, MPI_Comm communicator,
+                                                std::string& reason);
 };
 
 /// Says every now and then how wrong the field of the run is.

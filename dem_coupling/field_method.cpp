@@ -183,6 +183,9 @@ Complaints FieldMethod::check(const FieldSettings& settings, const PoissonMesh* 
     }
     if (settings.method == "p3m") {
         checkP3m(settings.p3m, demBox, periodic, complaints);
+        if (mesh && !mesh->unknownToP3m().empty()) {
+            complaints.add(entry, "p3m can not be used here, because " + mesh->unknownToP3m() + ". Use him or himCell");
+        }
     }
     if (method->needsCutoff) {
         // Only him decides by the distance of two charges and yet corrects by cells.

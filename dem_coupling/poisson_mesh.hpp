@@ -62,6 +62,9 @@ public:
     /// Whether the gas's permittivity holds in all cells and no wall carries charge of its own, so that the charges and the
     /// edge of the mesh alone make the field.
     virtual bool chargesAlone() const { return true; }
+    /// What of the mesh p3m could not give its due, as a clause for a message: a patch that is neither conductor nor insulated,
+    /// cells of another permittivity than the gas. Empty where there is nothing. The same on all ranks; not collective.
+    virtual std::string unknownToP3m() const { return {}; }
 
     /// Asks for the operator of matchedSymbol() (electrostatics/p3m/lattice_operator.hpp) in place of the finite-volume one
     /// in solve(cellCharge, boundaryValue), whose boundary values are all zero from then on. True when the mesh has one: the

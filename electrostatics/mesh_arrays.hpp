@@ -11,7 +11,8 @@ namespace him {
 /// What the edge of the mesh does to the potential.
 enum class FaceCondition : std::uint8_t {
     conductor,  ///< the potential of the face is given
-    insulated   ///< the outward normal gradient is given, zero on zeroGradient and symmetry patches
+    insulated,  ///< the outward normal gradient is given, zero on zeroGradient and symmetry patches
+    other       ///< neither, as on an insulating wall with a conductor behind it: the mesh solves, p3m refuses
 };
 
 /// Faces at which the mesh ends, one row each. Faces to another rank or to a periodic copy are not among them.

@@ -52,9 +52,9 @@ std::optional<RectangularSpace> boxOfMesh(const PoissonMesh& mesh, const std::ar
         const auto n = static_cast<std::size_t>(face);
         const std::size_t side =
             sideOf(arrays.boundary.normal.row(face).matrix(), arrays.boundary.centre.row(face).matrix(), space.box);
-        conditions[side] |= arrays.boundary.condition[n] == FaceCondition::insulated ? insulatedBit
-                            : arrays.boundary.value[face] == 0                       ? groundedBit
-                                                                                     : otherBit;
+        const FaceCondition condition = arrays.boundary.condition[n];
+        const bool grounded = condition == FaceCondition::conductor && arrays.boundary.value[face] == 0;
+        conditions[side] |= condition == FaceCondition::insulated ? insulatedBit : grounded ? groundedBit : otherBit;
     }
     MPI_Allreduce(MPI_IN_PLACE, conditions.data(), 7, MPI_INT, MPI_BOR, communicator);
     double volume = arrays.volume.sum();

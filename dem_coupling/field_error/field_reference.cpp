@@ -57,13 +57,16 @@ private:
 
 std::unique_ptr<FieldReference> FieldReference::find(const FieldSettings& settings, PoissonMesh* mesh,
                                                      const Box& demBox, const std::array<bool, 3>& periodic,
-                                                     MPI_Comm communicator)
+                                                     MPI_Comm communicator, std::string& reason)
 {
+    reason =
+        "a rectangular box of grounded, insulated or periodic sides has one, and on other meshes a stricter p3m serves";
     if (mesh) {
         if (const auto space = boxOfMesh(*mesh, periodic, communicator)) {
             return std::make_unique<BoxReference>(*space, settings.permittivity);
         }
-        if (StrictP3mReference::serves(settings, *mesh, demBox, periodic, communicator)) {
+        reason = StrictP3mReference::whyNot(settings, *mesh, demBox, periodic, communicator);
+        if (reason.empty()) {
             return std::make_unique<StrictP3mReference>(settings, *mesh, demBox, periodic, communicator);
         }
         return nullptr;

@@ -40,13 +40,20 @@ StrictP3mReference::StrictP3mReference(const FieldSettings& settings, PoissonMes
 {
 }
 
-bool StrictP3mReference::serves(const FieldSettings& settings, const PoissonMesh& mesh, const Box& demBox,
-                                const std::array<bool, 3>& periodic, MPI_Comm communicator)
+std::string StrictP3mReference::whyNot(const FieldSettings& settings, const PoissonMesh& mesh, const Box& demBox,
+                                       const std::array<bool, 3>& periodic, MPI_Comm communicator)
 {
+    if (!mesh.unknownToP3m().empty()) {
+        return "a stricter p3m would serve, but " + mesh.unknownToP3m();
+    }
     std::int64_t cells = mesh.cellCount();
     MPI_Allreduce(MPI_IN_PLACE, &cells, 1, MPI_INT64_T, MPI_SUM, communicator);
-    return cells <= mostCellsOfReference
-           && FieldMethod::check(strictSettings(settings), &mesh, demBox, periodic).none();
+    if (cells > mostCellsOfReference) {
+        return "a stricter p3m serves on meshes of at most " + std::to_string(mostCellsOfReference)
+               + " cells, and this one has " + std::to_string(cells);
+    }
+    const Complaints complaints = FieldMethod::check(strictSettings(settings), &mesh, demBox, periodic);
+    return complaints.none() ? std::string() : "a stricter p3m would serve, but " + complaints.lines().front();
 }
 
 void StrictP3mReference::addField(const DemParticles& particles, const Points& targets,

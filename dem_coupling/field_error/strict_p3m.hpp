@@ -13,9 +13,10 @@ public:
     StrictP3mReference(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox,
                        const std::array<bool, 3>& periodic, MPI_Comm communicator);
 
-    /// Whether there is one: the mesh has few enough cells, and p3m accepts it. Collective.
-    static bool serves(const FieldSettings& settings, const PoissonMesh& mesh, const Box& demBox,
-                       const std::array<bool, 3>& periodic, MPI_Comm communicator);
+    /// Empty when there is one; else why not, a clause for a message: the mesh has too many cells, or p3m does not accept it.
+    /// Collective.
+    static std::string whyNot(const FieldSettings& settings, const PoissonMesh& mesh, const Box& demBox,
+                              const std::array<bool, 3>& periodic, MPI_Comm communicator);
 
     void addField(const DemParticles& particles, const Points& targets, const std::vector<Index>& ownRow,
                   Points& field) const override;

@@ -186,8 +186,10 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
 
 void checkConditions(const FieldSettings& settings, const foamPoissonMesh& mesh, Complaints& complaints)
 {
-    if (settings.method == "p3m") {
-        refuseOtherConditions(mesh.electricPotential(), complaints);
+    if (settings.method != "p3m") {
+        refuseCouplings(mesh.electricPotential(), complaints);
+    } else {
+        refuseConditionsUnknownToP3m(mesh.electricPotential(), complaints);
         if (mesh.matter() && !mesh.matter()->uniform()) {
             complaints.add("constant/electrostaticProperties: zonePermittivity",
                            "p3m knows one permittivity, that of the gas, in all cells. Leave zonePermittivity out (charge on "

@@ -83,6 +83,7 @@ foamPoissonMesh::foamPoissonMesh(const Foam::fvMesh& mesh, double permittivity, 
       localBounds_(boundsOf(mesh.points())),
       largestCellDiagonal_(largestDiagonal(mesh)),
       potentialIsFixed_(!electricPotential_.needReference()),
+      unknownToP3m_(firstConditionUnknownToP3m(electricPotential_)),
       equation_(std::make_unique<potentialEquation>(electricPotential_, numerics_))
 {
 }
@@ -95,6 +96,10 @@ void foamPoissonMesh::setDielectrics(const dielectricChoices& choices, Complaint
     if (dielectrics_) {
         numerics_.directSolve = false;
         equation_ = std::make_unique<potentialEquation>(electricPotential_, numerics_, dielectrics_.get());
+        if (!dielectrics_->uniform()) {
+            unknownToP3m_ =
+                "zonePermittivity gives cells another permittivity than the gas, and p3m knows one in all cells";
+        }
     }
 }
 

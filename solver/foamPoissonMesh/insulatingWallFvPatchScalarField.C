@@ -3,11 +3,43 @@
 
 #include "electrostatics/constants.hpp"
 
+#include "OStringStream.H"
 #include "addToRunTimeSelectionTable.H"
 #include "fvPatchFieldMapper.H"
 #include "volFields.H"
 
 namespace Foam {
+
+namespace {
+
+/// A required number above zero; else an error that says what was found and what is allowed.
+scalar positive(const dictionary& dict, const fvPatch& patch, const word& name)
+{
+    const entry* given = dict.findEntry(name, keyType::LITERAL);
+    if (!given) {
+        FatalIOErrorInFunction(dict)
+            << patch.name() << ": " << name
+            << ": the entry is missing. An insulatingWall needs `thickness` [m] and `relativePermittivity`"
+            << exit(FatalIOError);
+    }
+    scalar value = 0;
+    OStringStream found;
+    if (given->isStream()) {
+        const tokenList& tokens = given->stream();
+        forAll(tokens, i)
+        {
+            found << (i > 0 ? " " : "") << tokens[i];
+        }
+        value = tokens.size() == 1 && tokens[0].isNumber() ? tokens[0].number() : 0;
+    }
+    if (!(value > 0)) {
+        FatalIOErrorInFunction(dict) << patch.name() << ": " << name << ": found `" << found.str().c_str()
+                                     << "`, but a number above zero is expected" << exit(FatalIOError);
+    }
+    return value;
+}
+
+}  // namespace
 
 makePatchTypeField(fvPatchScalarField, insulatingWallFvPatchScalarField);
 
@@ -24,8 +56,8 @@ insulatingWallFvPatchScalarField::insulatingWallFvPatchScalarField(const fvPatch
                                                                    const DimensionedField<scalar, volMesh>& iF,
                                                                    const dictionary& dict)
     : mixedFvPatchScalarField(p, iF),
-      thickness_(dict.getCheck<scalar>("thickness", scalarMinMax::ge(VSMALL))),
-      relativePermittivity_(dict.getCheck<scalar>("relativePermittivity", scalarMinMax::ge(VSMALL))),
+      thickness_(positive(dict, p, "thickness")),
+      relativePermittivity_(positive(dict, p, "relativePermittivity")),
       outerPotential_(dict.getOrDefault<scalar>("outerPotential", 0))
 {
     refGrad() = 0;

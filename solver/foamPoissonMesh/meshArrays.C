@@ -49,21 +49,52 @@ std::string whyNotCoupled(const fvPatchScalarField& potential)
     return {};
 }
 
+/// Why p3m does not know what this patch does; empty when it does, or when the patch is coupled.
 std::string whyNotCondition(const fvPatchScalarField& potential)
 {
-    if (potential.coupled()) {
-        return whyNotCoupled(potential);
-    }
-    if (isConductor(potential) || isInsulated(potential)) {
+    if (potential.coupled() || isConductor(potential) || isInsulated(potential)) {
         return {};
     }
     if (isA<insulatingWallFvPatchScalarField>(potential)) {
-        return "the condition insulatingWall, of whose other side p3m knows nothing. Mesh the outside of the wall and name it "
-               "in insulatingWalls, or use fieldMethod him or himCell";
+        return "the condition insulatingWall, of whose other side p3m knows nothing";
     }
-    return "the condition " + potential.type()
-           + ", of which it is not known whether the wall is a conductor. Known: fixedValue and its kin, zeroGradient, "
-             "fixedGradient with gradient 0, symmetry, symmetryPlane, cyclic";
+    return "the condition " + potential.type() + ", of which p3m does not know whether the wall is a conductor";
+}
+
+/// What to do about such a patch, a sentence.
+std::string adviceOn(const fvPatchScalarField& potential)
+{
+    if (isA<insulatingWallFvPatchScalarField>(potential)) {
+        return "Mesh the outside of the wall and name it in insulatingWalls, or use fieldMethod him or himCell";
+    }
+    return "Known: fixedValue and its kin, zeroGradient, fixedGradient with gradient 0, symmetry, symmetryPlane, "
+           "cyclic. Use one of "
+           "them, or fieldMethod him or himCell";
+}
+
+/// The text of the first rank that has one. Collective.
+std::string onAnyRank(const std::string& mine)
+{
+    List<string> texts(Pstream::nProcs());
+    texts[Pstream::myProcNo()] = mine;
+    Pstream::gatherList(texts);
+    Pstream::scatterList(texts);
+    const auto found = std::find_if(texts.begin(), texts.end(), [](const auto& text) { return !text.empty(); });
+    return found == texts.end() ? std::string() : std::string(*found);
+}
+
+/// Complains about the patches for which `whyNot` has a reason. Collective.
+template <class WhyNot> void refusePatches(const volScalarField& potential, Complaints& complaints, WhyNot&& whyNot)
+{
+    const std::string where = ofRegion(potential.time().timeName(), potential.mesh().name()) / "electricPotential";
+    for (const fvPatchScalarField& patch : potential.boundaryField()) {
+        // A gradient of zero on this rank's faces says nothing about the others.
+        const bool common = !isA<processorPolyPatch>(patch.patch().patch());
+        const std::string reason = common ? onAnyRank(whyNot(patch)) : whyNot(patch);
+        if (!reason.empty()) {
+            complaints.add(where + ": " + patch.patch().name(), "found " + reason + ".");
+        }
+    }
 }
 
 /// Translation from the cells beyond the patch to where this side sees them; exactly zero at plain rank boundaries.
@@ -127,6 +158,9 @@ void addBoundaryFaces(const fvPatchScalarField& potential, BoundaryFaces& faces)
 {
     const fvPatch& patch = potential.patch();
     const bool conductor = isConductor(potential);
+    const FaceCondition condition = conductor                ? FaceCondition::conductor
+                                    : isInsulated(potential) ? FaceCondition::insulated
+                                                             : FaceCondition::other;
     Index row = faces.size();
     const Index all = row + patch.size();
     faces.centre.conservativeResize(all, 3);
@@ -142,7 +176,7 @@ void addBoundaryFaces(const fvPatchScalarField& potential, BoundaryFaces& faces)
         faces.radius[row] = radiusOf(patch, i);
         faces.value[row] = conductor ? potential[i] : 0;
         faces.cell.push_back(patch.faceCells()[i]);
-        faces.condition.push_back(conductor ? FaceCondition::conductor : FaceCondition::insulated);
+        faces.condition.push_back(condition);
         ++row;
     }
 }
@@ -169,26 +203,33 @@ bool isConductor(const fvPatchScalarField& potential)
     return potential.fixesValue() && !isA<mixedFvPatchScalarField>(potential);
 }
 
-void refuseOtherConditions(const volScalarField& potential, Complaints& complaints)
+void refuseCouplings(const volScalarField& potential, Complaints& complaints)
 {
-    forAll(potential.boundaryField(), patch)
-    {
-        // A gradient of zero on this rank's faces says nothing about the others.
-        std::string reason = whyNotCondition(potential.boundaryField()[patch]);
-        if (!isA<processorPolyPatch>(potential.boundaryField()[patch].patch().patch())) {
-            List<string> reasons(Pstream::nProcs());
-            reasons[Pstream::myProcNo()] = reason;
-            Pstream::gatherList(reasons);
-            Pstream::scatterList(reasons);
-            const auto found = std::find_if(reasons.begin(), reasons.end(), [](const auto& r) { return !r.empty(); });
-            reason = found == reasons.end() ? "" : *found;
+    refusePatches(potential, complaints, [](const fvPatchScalarField& patch) {
+        return patch.coupled() ? whyNotCoupled(patch) : std::string();
+    });
+}
+
+void refuseConditionsUnknownToP3m(const volScalarField& potential, Complaints& complaints)
+{
+    refusePatches(potential, complaints, [](const fvPatchScalarField& patch) {
+        const std::string reason = patch.coupled() ? whyNotCoupled(patch) : whyNotCondition(patch);
+        return patch.coupled() || reason.empty() ? reason : reason + ". " + adviceOn(patch);
+    });
+}
+
+std::string firstConditionUnknownToP3m(const volScalarField& potential)
+{
+    for (const fvPatchScalarField& patch : potential.boundaryField()) {
+        if (isA<processorPolyPatch>(patch.patch().patch())) {
+            break;  // ranks have their own ones, behind the patches that all have
         }
+        const std::string reason = onAnyRank(whyNotCondition(patch));
         if (!reason.empty()) {
-            complaints.add(std::string(ofRegion(potential.time().timeName(), potential.mesh().name()) / "electricPotential") + ": "
-                               + potential.boundaryField()[patch].patch().name(),
-                           "found " + reason + ".");
+            return "patch " + patch.patch().name() + " has " + reason;
         }
     }
+    return {};
 }
 
 MeshArrays makeMeshArrays(const volScalarField& potential)

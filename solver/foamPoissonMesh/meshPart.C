@@ -84,7 +84,7 @@ const MeshArrays& foamPoissonMesh::arrays() const
 {
     if (!arrays_) {
         Complaints complaints;
-        refuseOtherConditions(electricPotential_, complaints);
+        refuseCouplings(electricPotential_, complaints);
         if (!complaints.none()) {
             throw std::runtime_error(complaints.text());
         }

@@ -13,7 +13,9 @@ fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSett
                                  const std::array<bool, 3>& periodic, MPI_Comm communicator)
     : runTime_(runTime),
       monitor_(errorSettings,
-               errorSettings.active ? FieldReference::find(settings, mesh, demBox, periodic, communicator) : nullptr,
+               errorSettings.active
+                   ? FieldReference::find(settings, mesh, demBox, periodic, communicator, whyNoReference_)
+                   : nullptr,
                settings.externalField, communicator),
       method_(settings.method),
       accuracy_(settings.accuracy),
@@ -24,8 +26,7 @@ fieldErrorTable::fieldErrorTable(const Foam::Time& runTime, const FieldErrorSett
     }
     if (monitor_.reference().empty()) {
         Foam::Info << "Field error: n/a, there is no exact reference for " << settings.method.c_str()
-                   << " here (a rectangular box of grounded, insulated or periodic sides has one; on a mesh of at most "
-                   << Foam::label(mostCellsOfReference) << " cells a stricter p3m serves)" << Foam::endl;
+                   << " here: " << whyNoReference_.c_str() << Foam::endl;
         return;
     }
     Foam::Info << "Field error: measured against " << monitor_.reference().c_str() << Foam::endl;

@@ -52,7 +52,9 @@ struct Scene24 {
     FieldErrorMonitor monitor(const FieldSettings& settings, FieldErrorSettings errorSettings = {})
     {
         const bool onMesh = FieldMethod::needsMesh(settings.method);
-        return {errorSettings, FieldReference::find(settings, onMesh ? &mesh : nullptr, packing.box, open, world),
+        std::string reason;
+        return {errorSettings,
+                FieldReference::find(settings, onMesh ? &mesh : nullptr, packing.box, open, world, reason),
                 settings.externalField, world};
     }
     /// Exact field of this rank's particles, external field included.
@@ -139,6 +141,28 @@ TEST(FieldError, hasNoReferenceWhereNothingIsExact)
     EXPECT_EQ(monitor.reference(), "");
     EXPECT_FALSE(monitor.due(0, 1));
     EXPECT_NE(monitor.measure(scene.mine, scene.mine.position).failure, "");
+}
+
+/// A mesh with matter of which p3m knows nothing.
+class MeshWithGlass : public BoxMesh {
+public:
+    using BoxMesh::BoxMesh;
+    bool chargesAlone() const override { return false; }
+    std::string unknownToP3m() const override { return "there is glass in it"; }
+};
+
+TEST(FieldError, isNotMeasuredByAP3mThatDoesNotKnowAllOfTheMesh)
+{
+    const Scene24 scene;
+    MeshWithGlass mesh(scene.packing.box, {12, 12, 12}, epsilon0, world);
+    FieldSettings settings = settingsOf("him");
+    settings.nearCutoff = 3.6e-3;
+    std::string reason;
+    EXPECT_EQ(FieldReference::find(settings, &mesh, scene.packing.box, open, world, reason), nullptr);
+    EXPECT_EQ(reason, "a stricter p3m would serve, but there is glass in it");
+    EXPECT_TRUE(FieldMethod::check(settings, &mesh, scene.packing.box, open).none());
+    expectContains(FieldMethod::check(settingsOf("p3m"), &mesh, scene.packing.box, open).text(),
+                   "p3m can not be used here, because there is glass in it");
 }
 
 TEST(FieldError, saysOnAllRanksWhyItCouldNotMeasure)
@@ -230,6 +254,7 @@ TEST(BoxOfMesh, isNotSeenInOtherMeshes)
     EXPECT_TRUE(found([](MeshArrays&) {}));
     EXPECT_FALSE(found([](MeshArrays& arrays) { arrays.boundary.value[3] = 5; }));
     EXPECT_FALSE(found([](MeshArrays& arrays) { arrays.boundary.condition[3] = FaceCondition::insulated; }));
+    EXPECT_FALSE(found([](MeshArrays& arrays) { arrays.boundary.condition[3] = FaceCondition::other; }));
     EXPECT_FALSE(found([](MeshArrays& arrays) { arrays.boundary.normal.row(3) << 0.6, 0.8, 0; }));
     EXPECT_FALSE(found([](MeshArrays& arrays) { arrays.volume[0] = 0; }));
 }

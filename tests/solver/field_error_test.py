@@ -123,6 +123,21 @@ class FieldErrorOfARun(unittest.TestCase):
         self.assertEqual(rows, [])
         self.assertIn("Field error: n/a, there is no exact reference for pairwiseSum here", result.text)
 
+    def test_is_not_known_where_cells_have_another_permittivity(self):
+        """p3m, which would be the reference, knows the gas only; the run itself is right, see insulating_walls_test.py."""
+        with tempfile.TemporaryDirectory() as folder:
+            case = TinyCase(folder)
+            case.replace("system/blockMeshDict", "hex (0 1 2 3 4 5 6 7)", "hex (0 1 2 3 4 5 6 7) lower")
+            case.tool("blockMesh")
+            case.replace(ELECTROSTATIC, "relativePermittivity 1;",
+                         "relativePermittivity 1; zonePermittivity { lower 5; } fieldError { interval 1; }")
+            result = case.run()
+            self.assertEqual(result.code, 0, result.text)
+            self.assertEqual(table(case), [])
+            self.assertIn("Field error: n/a, there is no exact reference for him here: a stricter p3m would serve, but zonePermittivity "
+                          "gives cells another permittivity than the gas, and p3m knows one in all cells", result.text)
+            self.assertNotIn("Field error: rms", result.text)
+
     def test_refuses_nonsense(self):
         result, _ = self.run_case(entry="fieldError { sample 0; interval -1; often yes; }")
         self.assertEqual(result.code, 1)

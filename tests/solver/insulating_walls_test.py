@@ -268,6 +268,19 @@ class Refusals(unittest.TestCase):
     def test_unknown_zones_are_named(self):
         self.refused("the mesh has no cell zone of this name; it has: lower, upper", zones="zonePermittivity { glass 2; }")
 
+    def test_a_plate_at_the_edge_says_what_was_found_and_what_is_allowed(self):
+        for entries, complaint in (("thickness 0; relativePermittivity 6.5;", "bottom: thickness: found `0`, but a number above zero is expected"),
+                                   ("thickness 1e-3; relativePermittivity -1;",
+                                    "bottom: relativePermittivity: found `-1`, but a number above zero is expected"),
+                                   ("thickness thin; relativePermittivity 6.5;", "bottom: thickness: found `thin`, but"),
+                                   ("thickness 1e-3;", "bottom: relativePermittivity: the entry is missing")):
+            case = slabs("%s/%d" % (self.folder, abs(hash(entries))), wall="")
+            case.replace("0/electricPotential", "bottom { type fixedValue; value uniform 0; }",
+                         "bottom { type insulatingWall; %s }" % entries)
+            result = case.run("-dry-run")
+            self.assertEqual(result.code, 1, result.text)
+            self.assertIn("0/electricPotential: " + complaint, " ".join(result.text.split()))
+
     def test_p3m_refuses_what_it_does_not_know(self):
         self.refused("p3m knows one permittivity", method="p3m", zones="zonePermittivity { lower 2; }")
 
