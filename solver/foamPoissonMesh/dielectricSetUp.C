@@ -5,6 +5,8 @@
 #include "foamPoissonMesh/insulatingWallFvPatchScalarField.H"
 #include "settings/electricRegion.H"
 
+#include "cyclicPolyPatch.H"
+#include "processorCyclicPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "syncTools.H"
 
@@ -144,11 +146,14 @@ void dielectrics::findWalls(const dielectricChoices& choices, const volScalarFie
             }
         }
         bool atEdge = false;
+        bool periodic = false;
         bool twice = false;
         for (const label face : found) {
-            atEdge = atEdge
-                     || (face >= mesh.nInternalFaces()
-                         && !mesh.boundaryMesh()[mesh.boundaryMesh().whichPatch(face)].coupled());
+            if (face >= mesh.nInternalFaces()) {
+                const polyPatch& patch = mesh.boundaryMesh()[mesh.boundaryMesh().whichPatch(face)];
+                atEdge = atEdge || !patch.coupled();
+                periodic = periodic || isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch);
+            }
             twice = twice || wallOfFace[face] >= 0;
             wallOfFace[face] = wall;
         }
@@ -162,6 +167,12 @@ void dielectrics::findWalls(const dielectricChoices& choices, const volScalarFie
                            "face zone " + choice.faceZone
                                + " has faces at the edge of the mesh. Give their patch the condition insulatingWall in "
                                  "electricPotential, or mesh the outside of the wall.");
+        }
+        if (returnReduce(periodic, orOp<bool>())) {
+            complaints.add(
+                where,
+                "some of its faces lie on a periodic patch, where each has two places and its charge none of its own. "
+                "Shift the mesh against its period, so that the wall lies inside it.");
         }
         if (returnReduce(twice, orOp<bool>())) {
             complaints.add(where, "some of its faces belong to another insulating wall as well.");

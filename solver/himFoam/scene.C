@@ -98,7 +98,8 @@ void openDem(scene& s, MPI_Comm communicator)
     }
     if (s.poisson) {
         checkParticlesInMesh(s.settings, *s.dem, *s.poisson, communicator, complaints);
-        s.insulatingWalls = wallCharges::create(s.settings, *s.dem, s.poisson->matter(), communicator, complaints);
+        checkGroundedWalls(s.settings, *s.dem, *s.poisson, communicator, complaints);
+        s.insulatingWalls = wallCharges::create(s.settings, *s.dem, *s.poisson, communicator, complaints);
     }
     s.dem->allowRemovals(s.settings.allowRemovals);
     if (s.settings.electrostatics) {
@@ -109,6 +110,7 @@ void openDem(scene& s, MPI_Comm communicator)
     s.statisticsRegions = completeRegions(s.settings.statistics, *s.dem, communicator, complaints);
     if (s.settings.gas) {
         checkGasScene(*s.settings.gas, s.gasMesh(), *s.dem, complaints);
+        checkGasWalls(s.settings, *s.dem, s.gasMesh(), communicator, complaints);
     }
     stopOnComplaints(complaints, "Case and DEM script together", communicator);
     if (s.settings.gas) {

@@ -3,6 +3,9 @@
 
 #include "foamPoissonMesh/conversions.H"
 
+#include "dem_coupling/exchange/mesh_locator.hpp"
+#include "dem_coupling/exchange/wall_offsets.hpp"
+
 #include "OSspecific.H"
 
 #include <algorithm>
@@ -12,9 +15,6 @@
 namespace him {
 
 namespace {
-
-/// A face whose normal is within about 18 degrees of a wall's is looked at as part of it.
-constexpr double alongWall = 0.95;
 
 /// Default of wallDistance: this share of the edge of the smallest wall face.
 constexpr double shareOfFace = 0.1;
@@ -42,29 +42,6 @@ double defaultReach(const dielectrics& matter)
     return shareOfFace * std::sqrt(Foam::returnReduce(smallest, Foam::minOp<Foam::scalar>()));
 }
 
-/// Points of all ranks.
-std::vector<Vector3> gathered(const std::vector<Vector3>& mine, MPI_Comm communicator)
-{
-    int ranks = 1;
-    MPI_Comm_size(communicator, &ranks);
-    std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(static_cast<std::size_t>(ranks));
-    const int count = 3 * static_cast<int>(mine.size());
-    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-    for (std::size_t rank = 1; rank < starts.size(); ++rank) {
-        starts[rank] = starts[rank - 1] + counts[rank - 1];
-    }
-    std::vector<double> own, all(static_cast<std::size_t>(starts.back() + counts.back()));
-    for (const Vector3& point : mine) {
-        own.insert(own.end(), point.data(), point.data() + 3);
-    }
-    MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator);
-    std::vector<Vector3> points;
-    for (std::size_t n = 0; n < all.size(); n += 3) {
-        points.emplace_back(all.data() + n);
-    }
-    return points;
-}
-
 std::string shownPoint(const Vector3& p)
 {
     return "(" + shown(p.x()) + " " + shown(p.y()) + " " + shown(p.z()) + ") m";
@@ -87,9 +64,10 @@ wallCharges::wallCharges(dielectrics& matter, double reach, MPI_Comm communicato
 {
 }
 
-std::unique_ptr<wallCharges> wallCharges::create(const caseSettings& settings, const DemPort& dem, dielectrics* matter,
-                                                 MPI_Comm communicator, Complaints& complaints)
+std::unique_ptr<wallCharges> wallCharges::create(const caseSettings& settings, const DemPort& dem,
+                                                 foamPoissonMesh& mesh, MPI_Comm communicator, Complaints& complaints)
 {
+    dielectrics* matter = mesh.matter();
     const bool any = std::any_of(settings.walls.begin(), settings.walls.end(),
                                  [&](const auto& wall) { return isInsulating(wall.second, matter); });
     if (!any) {
@@ -97,9 +75,6 @@ std::unique_ptr<wallCharges> wallCharges::create(const caseSettings& settings, c
     }
     const double reach = settings.wallDistance > 0 ? settings.wallDistance : defaultReach(*matter);
     std::unique_ptr<wallCharges> made(new wallCharges(*matter, reach, communicator));
-    Box bounds;
-    bounds.lower = toEigen(matter->mesh().bounds().min());
-    bounds.upper = toEigen(matter->mesh().bounds().max());
     for (std::size_t n = 0; n < dem.walls().size(); ++n) {
         const DemWall& wall = dem.walls()[n];
         const auto entry = std::find_if(settings.walls.begin(), settings.walls.end(),
@@ -109,7 +84,10 @@ std::unique_ptr<wallCharges> wallCharges::create(const caseSettings& settings, c
             const auto& names = matter->wallNames();
             const auto named = std::find(names.begin(), names.end(), entry->second);
             number = named == names.end() ? WallFaces::anyWall : static_cast<int>(named - names.begin());
-            made->checkPlace(wall, number, gathered(dem.wallPoints(n), communicator), bounds, complaints);
+            if (made->checkPlace(wall, number, pointsOfAllRanks(dem.wallPoints(n), communicator), mesh.globalBounds(),
+                                 complaints)) {
+                made->checkCover(dem, n, number, mesh, complaints);
+            }
         }
         made->wallOf_.push_back(number);
         made->demNames_.push_back(wall.name);
@@ -117,8 +95,8 @@ std::unique_ptr<wallCharges> wallCharges::create(const caseSettings& settings, c
     return made;
 }
 
-void wallCharges::checkPlace(const DemWall& wall, int insulatingWall, const std::vector<Vector3>& points, const Box& mesh,
-                             Complaints& complaints) const
+bool wallCharges::checkPlace(const DemWall& wall, int insulatingWall, const std::vector<Vector3>& points,
+                             const Box& mesh, Complaints& complaints) const
 {
     double worst = 0;
     bool seen = false;
@@ -147,13 +125,10 @@ void wallCharges::checkPlace(const DemWall& wall, int insulatingWall, const std:
         }
         worst = plane ? nearest : worst;
     } else {
-        for (const Vector3& point : points) {
-            if (mesh.contains(point)) {
-                seen = true;
-                worst = std::max(worst, faces_.find(point, insulatingWall).face >= 0
-                                            ? 0.0
-                                            : faces_.distanceTo(point, insulatingWall));
-            }
+        for (const Vector3& point : pointsOfFacets(points, mesh)) {
+            seen = true;
+            worst = std::max(
+                worst, faces_.find(point, insulatingWall).face >= 0 ? 0.0 : faces_.distanceTo(point, insulatingWall));
         }
     }
     if (!seen || worst > faces_.reach()) {
@@ -162,6 +137,64 @@ void wallCharges::checkPlace(const DemWall& wall, int insulatingWall, const std:
                            + (seen ? " by " + shown(worst) + " m" : std::string(" altogether: no face looks its way"))
                            + ", more than wallDistance, " + shown(faces_.reach())
                            + " m, so its charge would have no face to stay on. Move one of them, or raise wallDistance.");
+        return false;
+    }
+    return true;
+}
+
+void wallCharges::checkCover(const DemPort& dem, std::size_t demWall, int insulatingWall, const foamPoissonMesh& mesh,
+                             Complaints& complaints) const
+{
+    const std::vector<DemWall>& walls = dem.walls();
+    // Behind a mesh wall of the DEM scene particles may not come, but nothing here tells where behind is.
+    if (!std::all_of(walls.begin(), walls.end(), [](const DemWall& wall) { return wall.primitive; })) {
+        return;
+    }
+    Vector3 middle = Vector3::Zero();
+    double faces = 0;
+    for (Index n = 0; n < static_cast<Index>(faces_.all().size()); ++n) {
+        const WallFacePolygon& face = faces_.all()[static_cast<std::size_t>(n)];
+        const bool own = insulatingWall == WallFaces::anyWall || face.wall == insulatingWall;
+        if (own && distanceAlong(walls[demWall].image, face) <= faces_.reach()) {
+            middle += faces_.centreOf(n);
+            faces += 1;
+        }
+    }
+    const std::vector<Vector3> points = reachablePoints(walls, demWall, middle / faces, dem.box());
+    // A little to both sides, because faces at the edge of the mesh may lie on either side of the DEM wall.
+    Points beside(2 * static_cast<Index>(points.size()), 3);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        const ImageWall& wall = walls[demWall].image;
+        const Vector3 offset = points[n] - wall.point;
+        const Vector3 across = wall.shape == ImageWall::Shape::plane
+                                   ? wall.normal
+                                   : Vector3((offset - offset.dot(wall.normal) * wall.normal).normalized());
+        for (const int side : {0, 1}) {
+            beside.row(2 * static_cast<Index>(n) + side) =
+                (points[n] + (side == 0 ? 2.0 : -2.0) * faces_.reach() * across).transpose().array();
+        }
+    }
+    MeshLocator locator(mesh, communicator_, dem.box(), dem.periodic());
+    locator.locate(beside);
+    double looked = 0;
+    double bare = 0;
+    Vector3 first = Vector3::Zero();
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        if (!locator.inMesh(2 * static_cast<Index>(n)) && !locator.inMesh(2 * static_cast<Index>(n) + 1)) {
+            continue;
+        }
+        looked += 1;
+        if (faces_.find(points[n], insulatingWall).face < 0) {
+            first = bare == 0 ? points[n] : first;
+            bare += 1;
+        }
+    }
+    if (bare > 0) {
+        complaints.add("constant/couplingProperties: walls: " + walls[demWall].name,
+                       "particles can touch the DEM wall where the insulating wall of the mesh has no face: "
+                           + shown(100 * bare / looked, 2) + " % of it is bare, as at " + shownPoint(first)
+                           + ", and a contact there would stop the run. Let the wall's faces cover all of it, or shut "
+                             "particles out.");
     }
 }
 

@@ -63,6 +63,7 @@ class Bouncing(unittest.TestCase):
         case.replace("constant/electrostaticProperties", "externalField (0 0 1000);", "")
         case.replace("DEM/in.cube", "0.9 0.9 0.9 0.9", "1 1 1 1")
         case.replace("DEM/in.cube", "zplane 0.1", f"zplane {LID!r}")
+        case.replace("constant/couplingProperties", "wallContactField", "wallDistance 0.1; wallContactField")  # for the lid
         case.replace("system/fvSolution", "directSolve no;", "")
         return case
 
