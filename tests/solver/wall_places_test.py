@@ -15,7 +15,13 @@ CYLINDER = "fix floor all wall/gran model hertz tangential history cohesion char
 SETTLING = pathlib.Path(__file__).resolve().parents[2] / "cases/singleSettling"
 
 
-class GroundedWalls(CaseTests):
+class WallPlaces(CaseTests):
+    def accepted(self, case):
+        result = case.run("-dry-run")
+        self.assertEqual(result.code, 0, result.text)
+
+
+class GroundedWalls(WallPlaces):
     def floor_at(self, height, entry=""):
         """Spheres above a floor at some height over the grounded bottom of the mesh; faces of 10 mm."""
         spheres = [((0.03, 0.03, 0.06), (0., 0., 0.), 1e-9), ((0.07, 0.03, 0.06), (0., 0., 0.), -1e-9)]
@@ -23,10 +29,6 @@ class GroundedWalls(CaseTests):
         case.replace("DEM/in.cube", "zplane 0.0\n", "zplane %r\n" % height)
         case.replace(COUPLING, "wallContactField", entry + " wallContactField")
         return case
-
-    def accepted(self, case):
-        result = case.run("-dry-run")
-        self.assertEqual(result.code, 0, result.text)
 
     def test_a_plane_off_its_patch_is_refused(self):
         self.refused(self.floor_at(0.02), "constant/couplingProperties: walls: floor: the DEM wall lies off patch bottom of the mesh by 0.02 m, "
@@ -82,7 +84,7 @@ class GroundedWalls(CaseTests):
         self.refused(self.tube("beside", RADIUS, 0.004), "walls: floor: the DEM wall lies off patch sides of the mesh by 0.00")
 
 
-class GasWalls(CaseTests):
+class GasWalls(WallPlaces):
     """The sphere of cases/singleSettling, with walls of the DEM scene. Mesh 40 x 40 x 640 mm of 8 mm cells; the top is open."""
 
     def case(self, wall, entry=""):
@@ -93,10 +95,6 @@ class GasWalls(CaseTests):
                      "fix wall all wall/gran model hertz tangential history primitive type 1 %s\nfix g all" % wall)
         case.replace(COUPLING, "demScript", entry + "demScript")
         return case
-
-    def accepted(self, case):
-        result = case.run("-dry-run")
-        self.assertEqual(result.code, 0, result.text)
 
     def test_a_plane_off_the_wall_of_the_gas_is_refused(self):
         self.accepted(self.case("zplane 0"))
