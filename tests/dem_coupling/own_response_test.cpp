@@ -28,21 +28,14 @@ DemParticles crowd(double charge, double size = radius)
 {
     const std::array<Vector3, count> places{Vector3(0.0291, 0.0377, radius), Vector3(0.0321, 0.0362, 0.0121),
                                             Vector3(0.0303, 0.0303, 0.0108)};
-    int rank = 0;
-    int ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    const Index first = count * rank / ranks;
-    const Index last = count * (rank + 1) / ranks;
-    DemParticles particles = emptyParticles(last - first);
-    for (Index row = 0; row < last - first; ++row) {
-        const auto n = static_cast<std::size_t>(first + row);
-        particles.tag[static_cast<std::size_t>(row)] = static_cast<int>(n) + 1;
+    DemParticles particles = emptyParticles(count);
+    for (Index row = 0; row < count; ++row) {
+        const auto n = static_cast<std::size_t>(row);
         particles.position.row(row) = places[n].transpose().array();
         particles.charge[row] = n == 0 ? charge : unit * (n % 2 ? -1.0 : 0.7);
         particles.radius[row] = size;
     }
-    return particles;
+    return dealt(particles, MPI_COMM_WORLD);
 }
 
 struct Scene {

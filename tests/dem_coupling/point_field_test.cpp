@@ -43,21 +43,14 @@ std::array<Vector3, count> places(double along)
 
 DemParticles scene(double along)
 {
-    int rank = 0;
-    int ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    const Index first = count * rank / ranks;
-    const Index last = count * (rank + 1) / ranks;
-    DemParticles particles = emptyParticles(last - first);
-    for (Index row = 0; row < particles.size(); ++row) {
-        const auto n = static_cast<std::size_t>(first + row);
-        particles.tag[static_cast<std::size_t>(row)] = static_cast<int>(n) + 1;
+    DemParticles particles = emptyParticles(count);
+    for (Index row = 0; row < count; ++row) {
+        const auto n = static_cast<std::size_t>(row);
         particles.position.row(row) = places(along)[n].transpose().array();
         particles.charge[row] = unit * (n == 5 ? -0.7 : 1.0);
         particles.radius[row] = radius;
     }
-    return particles;
+    return dealt(particles, MPI_COMM_WORLD);
 }
 
 struct Touch {
