@@ -70,10 +70,10 @@ void GatheredRows::pad()
     size_ += singlePadding;
 }
 
-GatheredPoints GatheredRows::finish()
+GatheredPoints GatheredRows::finish(Index summed)
 {
     for (std::vector<float>* values : {&fieldX_, &fieldY_, &fieldZ_, &potential_}) {
-        std::fill_n(values->begin(), size_, 0.0F);
+        std::fill_n(values->begin(), summed, 0.0F);
     }
     return {x_.data(),      y_.data(),      z_.data(),      q_.data(),
             fieldX_.data(), fieldY_.data(), fieldZ_.data(), potential_.data()};

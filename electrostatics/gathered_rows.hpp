@@ -27,8 +27,8 @@ public:
     void append(const RowRange& range, const PointArrays& points, const float* charge);
     /// Appends the padding that the kernels want after the last row of what they are given.
     void pad();
-    /// To be called after the last append: the sums start at zero.
-    GatheredPoints finish();
+    /// To be called after the last append. The sums of the first `summed` rows start at zero; those of other rows must not be used.
+    GatheredPoints finish(Index summed);
     /// Adds the sums of gathered rows, from `row` on, to the rows of a range.
     void addTo(const RowRange& range, Index row, SingleRows& sums) const;
 

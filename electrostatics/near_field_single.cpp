@@ -65,7 +65,7 @@ void NearField::screenedInSingle(const ChargedPoints& points, const ChargeCloud&
             }
             const Index oneSidedEnd = gathered_.size();
             gathered_.pad();
-            const GatheredPoints rows = gathered_.finish();
+            const GatheredPoints rows = gathered_.finish(oneSidedBegin);
             // Every pair of targets once, for both, first those inside the block; the other sources act one-sided.
             PairCount count, oneSided;
             for (int n = 0; n + 1 < block.count; ++n) {

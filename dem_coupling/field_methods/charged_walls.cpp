@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace him {
 
@@ -165,41 +166,90 @@ void ChargedWalls::appendTo(CloudSources& sources) const
     }
 }
 
-void ChargedWalls::addNearPanels(const CloudSources& sources, double permittivity, Points& field,
-                                 Scalars& potential) const
+void ChargedWalls::addNearPanels(const CloudSources& sources, double permittivity, Points& field, Scalars& potential)
 {
+    if (panels_.empty()) {
+        return;
+    }
+    findNearRuns(sources);
     const double coulombConstant = 1.0 / (4.0 * pi * permittivity);
-    LinkedCells::Ranges ranges;
-    for (Index target = 0; target < sources.targets && !panels_.empty(); ++target) {
-        const Vector3 place = sources.position.row(target).matrix().transpose();
-        Box box;
-        box.extend(place);
-        panelCells_.rangesAround(box, ranges);
-        for (int n = 0; n < ranges.count; ++n) {
-            for (auto at = ranges.range[static_cast<std::size_t>(n)].begin;
-                 at < ranges.range[static_cast<std::size_t>(n)].end; ++at) {
-                const double x = place[0] - panelCentre_(at, 0);
-                const double y = place[1] - panelCentre_(at, 1);
-                const double z = place[2] - panelCentre_(at, 2);
-                if (x * x + y * y + z * z >= panelNearSquared_[at] || panelCharge_[at] == 0) {
-                    continue;
+    const double* x = sources.position.col(0).data();
+    const double* y = sources.position.col(1).data();
+    const double* z = sources.position.col(2).data();
+    for (std::size_t panel = 0; panel < panels_.size(); ++panel) {
+        const auto at = static_cast<Index>(panel);
+        const double charge = coulombConstant * panelCharge_[at];
+        const double px = panelCentre_(at, 0), py = panelCentre_(at, 1), pz = panelCentre_(at, 2);
+        nearPlaces_.clear();
+        for (auto n = firstNearRun_[panel]; n < firstNearRun_[panel + 1]; ++n) {
+            const RowRange& run = runs_[static_cast<std::size_t>(nearRuns_[static_cast<std::size_t>(n)])];
+            for (Index target = run.begin; target < run.end; ++target) {
+                const double dx = x[target] - px, dy = y[target] - py, dz = z[target] - pz;
+                if (dx * dx + dy * dy + dz * dz < panelNearSquared_[at]) {
+                    nearTargets_[static_cast<std::size_t>(nearPlaces_.count)] = target;
+                    nearPlaces_.append(x[target], y[target], z[target]);
+                    if (nearPlaces_.full()) {
+                        addNearPanel(panels_[panel], charge, field, potential);
+                    }
                 }
-                const Panel& panel = panels_[static_cast<std::size_t>(at)];
-                const double charge = coulombConstant * panelCharge_[at];
-                Vector3 more = Vector3::Zero();
-                double morePotential = 0;
-                panel.shape.addField(place, charge, more, morePotential);
-                for (const ChargedPanel::Point& point : panel.points) {
-                    const Vector3 r = place - point.position;
-                    const double inverse = 1.0 / r.norm();
-                    more -= charge * point.share * inverse * inverse * inverse * r;
-                    morePotential -= charge * point.share * inverse;
-                }
-                field.row(target) += more.transpose().array();
-                potential[target] += morePotential;
             }
         }
+        if (nearPlaces_.count > 0) {
+            addNearPanel(panels_[panel], charge, field, potential);
+        }
     }
+}
+
+/// Targets follow one another by cells. Finds the charged panels near each such run, and sorts what is found by panel.
+void ChargedWalls::findNearRuns(const CloudSources& sources)
+{
+    runs_.clear();
+    found_.clear();
+    firstNearRun_.assign(panels_.size() + 1, 0);
+    LinkedCells::Ranges ranges;
+    for (Index first = 0; first < sources.targets;) {
+        Index end = first;
+        Box box;
+        const std::int32_t cell = sources.cell[static_cast<std::size_t>(first)];
+        while (end < sources.targets && sources.cell[static_cast<std::size_t>(end)] == cell) {
+            box.extend(sources.position.row(end++).matrix().transpose());
+        }
+        panelCells_.rangesAround(box, ranges);
+        for (int n = 0; n < ranges.count; ++n) {
+            const RowRange& panels = ranges.range[static_cast<std::size_t>(n)];
+            for (auto panel = panels.begin; panel < panels.end; ++panel) {
+                const Vector3 centre = panelCentre_.row(panel).matrix().transpose();
+                const double square = (centre - centre.cwiseMax(box.lower).cwiseMin(box.upper)).squaredNorm();
+                if (panelCharge_[panel] != 0 && square < panelNearSquared_[panel]) {
+                    found_.push_back({static_cast<std::int32_t>(panel), static_cast<std::int32_t>(runs_.size())});
+                    ++firstNearRun_[static_cast<std::size_t>(panel)];
+                }
+            }
+        }
+        runs_.push_back({first, end});
+        first = end;
+    }
+    // Ends, which the loop below turns into starts by filling from the back.
+    std::partial_sum(firstNearRun_.begin(), firstNearRun_.end(), firstNearRun_.begin());
+    nearRuns_.resize(found_.size());
+    for (auto n = found_.rbegin(); n != found_.rend(); ++n) {
+        nearRuns_[static_cast<std::size_t>(--firstNearRun_[static_cast<std::size_t>(n->panel)])] = n->run;
+    }
+}
+
+/// Adds to the targets that have been collected near a panel, and forgets them.
+void ChargedWalls::addNearPanel(const Panel& panel, double charge, Points& field, Scalars& potential)
+{
+    nearPlaces_.finish();
+    panel.shape.addField(charge, nearPlaces_);
+    addFieldOfPoints(panel.points, -charge, nearPlaces_);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(nearPlaces_.count); ++n) {
+        field(nearTargets_[n], 0) += nearPlaces_.fieldX[n];
+        field(nearTargets_[n], 1) += nearPlaces_.fieldY[n];
+        field(nearTargets_[n], 2) += nearPlaces_.fieldZ[n];
+        potential[nearTargets_[n]] += nearPlaces_.potential[n];
+    }
+    nearPlaces_.clear();
 }
 
 }  // namespace him

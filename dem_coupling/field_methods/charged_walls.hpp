@@ -31,9 +31,10 @@ public:
     /// Adds to field [V/m] and potential [V], one row per target, the exact field of the panels near the targets less the Coulomb
     /// field of the panels' points. Baffles do not hide panels.
     /// @param permittivity  eps [F/m]
-    void addNearPanels(const CloudSources& sources, double permittivity, Points& field, Scalars& potential) const;
+    void addNearPanels(const CloudSources& sources, double permittivity, Points& field, Scalars& potential);
 
 private:
+    void findNearRuns(const CloudSources& sources);
     /// Points, panels and images of the next face.
     void takeFace(const std::vector<Vector3>& corners, std::int32_t cell, SurroundingsTable& table, double cloudRadius);
 
@@ -57,6 +58,7 @@ private:
         double share;  ///< of the face's charge, negative for the image in a conductor
         std::int32_t face;
     };
+    void addNearPanel(const Panel& panel, double charge, Points& field, Scalars& potential);
     /// Lays the panels in the order of their linked cells, so that those near a target follow one another.
     void orderPanels();
     std::vector<Panel> panels_;  ///< and their images
@@ -64,6 +66,15 @@ private:
     Points panelCentre_;        ///< [m], all three in the order of panels_
     Scalars panelNearSquared_;  ///< squared distance up to which the panel is exact [m2]
     Scalars panelCharge_;       ///< of update() [C]
+
+    std::vector<RowRange> runs_;  ///< of targets in one cell
+    struct NearRun {
+        std::int32_t panel, run;
+    };
+    std::vector<NearRun> found_;
+    std::vector<std::int32_t> nearRuns_, firstNearRun_;  ///< those near each panel
+    FieldAtPlaces nearPlaces_;                           ///< some targets near a panel
+    std::array<Index, FieldAtPlaces::most> nearTargets_;
 };
 
 }  // namespace him

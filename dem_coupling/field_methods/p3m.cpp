@@ -21,6 +21,9 @@ constexpr Index valuesPerTarget = 7;
 /// Lengths that differ by a smaller share are equal.
 constexpr double equalSizes = 1e-6;
 
+/// Images of a particle from this many of its diameters on are left out of its own response: each is below 1e-6 of its surface field.
+constexpr double farImages = 500.0;
+
 /// Largest of a value over the cells whose centres lie in the DEM box; over all cells where none does. Collective.
 double largestInBox(const MeshArrays& mesh, const Scalars& values, const Box& box, MPI_Comm communicator)
 {
@@ -127,8 +130,7 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
     if (settings_.ownResponse) {
         if (!ownTable_ && !planes_.empty()) {
             const PhaseTimer timer(times_, Phase::near);
-            planes_.ownField(particles, settings_.permittivity, std::numeric_limits<double>::infinity(),
-                             result.ownResponse);
+            planes_.ownField(particles, settings_.permittivity, farImages * largestDiameter_, result.ownResponse);
         } else {
             result.ownResponse.setZero(particles.size(), 3);
         }
@@ -140,9 +142,9 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
 
 void P3m::prepareOwnResponse(const DemParticles& particles)
 {
-    double largest = particles.size() > 0 ? 2 * particles.radius.maxCoeff() : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator_);
-    fineCells_ = fineCells_ || largest > cellSize_ * (1 + equalSizes);
+    largestDiameter_ = particles.size() > 0 ? 2 * particles.radius.maxCoeff() : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &largestDiameter_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+    fineCells_ = fineCells_ || largestDiameter_ > cellSize_ * (1 + equalSizes);
     if (!fineCells_) {
         return;
     }

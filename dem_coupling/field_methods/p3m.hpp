@@ -85,6 +85,7 @@ private:
     WallImages planes_;        ///< of a convex mesh with plane conducting sides, else none
     bool faceValues_ = false;  ///< some boundary face, on any rank, has a value besides the case's own
 
+    double largestDiameter_ = 0;  ///< of all particles [m]
     /// Cells are smaller than the largest particle so far: what the mesh makes of its own cloud matters to charging.
     bool fineCells_ = false;
     bool tableSought_ = false;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <limits>
 
 namespace him {
 
@@ -62,12 +63,15 @@ template <class Add> void mirrorInAll(const std::vector<Plane>& planes, const Ve
     }
 }
 
-/// The planes that the walls are for a charge at x.
-void setPlanes(const std::vector<ImageWall>& walls, const Vector3& x, std::vector<Plane>& planes)
+/// The planes that the walls are for a charge at x, without those whose images, all of them, lie beyond the reach [m].
+void setPlanes(const std::vector<ImageWall>& walls, const Vector3& x, double reach, std::vector<Plane>& planes)
 {
     planes.clear();
     for (const ImageWall& wall : walls) {
-        planes.push_back(planeFor(wall, x));
+        const Plane plane = planeFor(wall, x);
+        if (2 * std::abs((plane.point - x).dot(plane.normal)) <= reach) {
+            planes.push_back(plane);
+        }
     }
 }
 
@@ -81,7 +85,7 @@ void WallImages::make(const Points& position, const Scalars& charge, Set& images
     std::vector<Plane> planes;
     for (Index row = 0; row < position.rows(); ++row) {
         const Vector3 x = position.row(row).matrix().transpose();
-        setPlanes(walls_, x, planes);
+        setPlanes(walls_, x, std::numeric_limits<double>::infinity(), planes);
         mirrorInAll(planes, x, [&](const Vector3& place, double sign) {
             places.push_back(place);
             charges.push_back(sign * charge[row]);
@@ -104,7 +108,7 @@ void WallImages::ownField(const DemParticles& particles, double permittivity, do
     std::vector<Plane> planes;
     for (Index row = 0; row < particles.size(); ++row) {
         const Vector3 x = particles.position.row(row).matrix().transpose();
-        setPlanes(walls_, x, planes);
+        setPlanes(walls_, x, reach, planes);
         Vector3 sum = Vector3::Zero();
         mirrorInAll(planes, x, [&](const Vector3& place, double sign) {
             const Vector3 r = x - place;

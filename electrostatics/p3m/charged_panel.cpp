@@ -104,40 +104,4 @@ std::vector<ChargedPanel::Point> ChargedPanel::points() const
     return found;
 }
 
-void ChargedPanel::addField(const Vector3& point, double factor, Vector3& field, double& potential) const
-{
-    std::array<Vector3, 4> to;
-    std::array<double, 4> distance;
-    for (std::size_t n = 0; n < 4; ++n) {
-        to[n] = corner[n] - point;
-        distance[n] = to[n].norm();
-    }
-    double sum = 0;
-    Vector3 inPlane = Vector3::Zero();
-    for (std::size_t n = 0; n < static_cast<std::size_t>(corners); ++n) {
-        const std::size_t next = n + 1 < static_cast<std::size_t>(corners) ? n + 1 : 0;
-        const double begin = to[n].dot(along[n]);
-        const double end = to[next].dot(along[n]);
-        // Both forms are the same; this one loses no digits.
-        const double logarithm = begin + end > 0 ? std::log((distance[next] + end) / (distance[n] + begin))
-                                                 : std::log((distance[n] - begin) / (distance[next] - end));
-        inPlane += logarithm * outward[n];
-        sum += to[n].dot(outward[n]) * logarithm;
-    }
-    // Half the solid angle, below pi for a flat panel, is the argument of the product of its triangles' numbers.
-    double real = 1, imaginary = 0;
-    for (std::size_t n = 1; n + 1 < static_cast<std::size_t>(corners); ++n) {
-        const double x = distance[0] * distance[n] * distance[n + 1] + to[0].dot(to[n]) * distance[n + 1]
-                         + to[n].dot(to[n + 1]) * distance[0] + to[n + 1].dot(to[0]) * distance[n];
-        const double y = -to[0].dot(to[n].cross(to[n + 1]));
-        const double before = real;
-        real = before * x - imaginary * y;
-        imaginary = before * y + imaginary * x;
-    }
-    const double height = -to[0].dot(normal);
-    const double angle = height == 0 ? 0 : 2 * std::atan2(imaginary, real);
-    field += factor / area * (inPlane + angle * normal);
-    potential += factor / area * (sum - height * angle);
-}
-
 }  // namespace him

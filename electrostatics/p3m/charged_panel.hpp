@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "electrostatics/p3m/field_at_places.hpp"
 #include "electrostatics/types.hpp"
 
 #include <array>
@@ -19,11 +20,11 @@ struct ChargedPanel {
     double radius = 0;               ///< largest distance of a corner from the centre [m]
     double area = 0;                 ///< [m2]
 
-    /// Field [1/m2] and potential [1/m] at a point, to round-off (Wilton et al. 1984, IEEE Trans. Antennas Propag. 32(3),
+    /// Adds field and potential at some places, to round-off (Wilton et al. 1984, IEEE Trans. Antennas Propag. 32(3),
     /// 276-281, eqs. 5 and 6). In the plane of the panel the normal field is the mean of both sides, zero; on an edge it is
     /// not finite. The solid angle is that of van Oosterom and Strackee (1983, IEEE Trans. Biomed. Eng. 30(2), 125-126).
-    /// @param factor  charge of the panel; both are added times this, the field away from a positive one
-    void addField(const Vector3& point, double factor, Vector3& field, double& potential) const;
+    /// @param factor  charge of the panel; what is added is this times the field of a unit charge
+    void addField(double factor, FieldAtPlaces& at) const;
 
     /// Gauss points that stand for the panel, 4 in a quadrangle and 3 in a triangle. Their shares add up to 1; their moments are
     /// the panel's, up to the third degree in a parallelogram and to the second in a triangle.
@@ -33,6 +34,9 @@ struct ChargedPanel {
     };
     std::vector<Point> points() const;
 };
+
+/// Adds the Coulomb field and potential of the points() of a panel of charge `factor`.
+void addFieldOfPoints(const std::vector<ChargedPanel::Point>& points, double factor, FieldAtPlaces& at);
 
 /// The panel with these corners [m], of which a triangle has three.
 ChargedPanel panelWith(const std::array<Vector3, 4>& corner, int corners);

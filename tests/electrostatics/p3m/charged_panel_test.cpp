@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
+#include <random>
 
 namespace him {
 
@@ -33,7 +35,12 @@ template <class Add> Field sumOver(const std::vector<ChargedPanel>& panels, cons
 Field exactOf(const std::vector<ChargedPanel>& panels, const Vector3& place)
 {
     return sumOver(panels, [&](const ChargedPanel& panel, double share, Field& sum) {
-        panel.addField(place, share, sum.field, sum.potential);
+        FieldAtPlaces at;
+        at.append(place[0], place[1], place[2]);
+        at.finish();
+        panel.addField(share, at);
+        sum.field += Vector3(at.fieldX[0], at.fieldY[0], at.fieldZ[0]);
+        sum.potential += at.potential[0];
     });
 }
 
@@ -91,6 +98,62 @@ TEST(ChargedPanel, hasAPotentialWhoseGradientIsItsField)
             }
         }
     }
+}
+
+TEST(ChargedPanel, doesTheSameToAPlaceWhateverOthersStandBesideIt)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> anywhere(-2, 4);
+    for (const auto& polygon : {square, kite, {{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}}}) {
+        const ChargedPanel panel = panelsOf(polygon, 9)[0];
+        for (Index count = 1; count <= FieldAtPlaces::most; count += 7) {
+            FieldAtPlaces together;
+            for (Index n = 0; n < count; ++n) {
+                together.append(anywhere(random), anywhere(random), anywhere(random));
+            }
+            together.finish();
+            panel.addField(1.5, together);
+            addFieldOfPoints(panel.points(), -1, together);
+            for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+                FieldAtPlaces alone;
+                alone.append(together.x[n], together.y[n], together.z[n]);
+                alone.finish();
+                panel.addField(1.5, alone);
+                addFieldOfPoints(panel.points(), -1, alone);
+                EXPECT_EQ(alone.fieldX[0], together.fieldX[n]);
+                EXPECT_EQ(alone.fieldY[0], together.fieldY[n]);
+                EXPECT_EQ(alone.fieldZ[0], together.fieldZ[n]);
+                EXPECT_EQ(alone.potential[0], together.potential[n]);
+            }
+        }
+    }
+}
+
+TEST(ChargedPanel, raisesNoTrapInItsPlaneAndOnItsDiagonalsAndHasTheSignOfTheSideNextToThem)
+{
+    // The host program stops at a division by zero, an invalid operation or an overflow.
+    std::feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+    const double side = 1e-3;
+    const ChargedPanel panel =
+        panelWith({Vector3(0, 0, 0), Vector3(side, 0, 0), Vector3(side, side, 0), Vector3(0, side, 0)}, 4);
+    for (const double height : {0.0, 1e-300, 1e-20, 1e-9}) {
+        for (const double x : {0.1, 0.5, 0.7, 1.5}) {
+            for (const double y : {0.3, 0.5, 0.7}) {
+                FieldAtPlaces both;
+                both.append(x * side, y * side, height);
+                both.append(x * side, y * side, -height);
+                both.finish();
+                panel.addField(side * side, both);
+                EXPECT_EQ(both.fieldZ[0], -both.fieldZ[1]);
+                // Nearer than round-off the side may be lost, on a diagonal.
+                if (height == 0 || height > 1e-12) {
+                    EXPECT_NEAR(both.fieldZ[0], height > 0 && x < 1 ? 2 * pi : 0, 1e-4) << x << ' ' << y;
+                }
+            }
+        }
+    }
+    fedisableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
 }
 
 TEST(ChargedPanel, isTheSameHoweverItIsCut)
