@@ -123,7 +123,7 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
     }
     firstOfRank_.push_back(static_cast<Index>(faces_.size()));
 
-    binSize_ = 2 * (largest + reach);
+    binSize_ = largest + reach;  // a handful of faces in each
     for (std::size_t n = 0; n < faces_.size(); ++n) {
         Box box;
         for (const Vector3& corner : faces_[n].corners) {

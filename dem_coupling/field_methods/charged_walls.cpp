@@ -185,12 +185,12 @@ void ChargedWalls::addNearPanels(const CloudSources& sources, double permittivit
             const RowRange& run = runs_[static_cast<std::size_t>(nearRuns_[static_cast<std::size_t>(n)])];
             for (Index target = run.begin; target < run.end; ++target) {
                 const double dx = x[target] - px, dy = y[target] - py, dz = z[target] - pz;
-                if (dx * dx + dy * dy + dz * dz < panelNearSquared_[at]) {
-                    nearTargets_[static_cast<std::size_t>(nearPlaces_.count)] = target;
-                    nearPlaces_.append(x[target], y[target], z[target]);
-                    if (nearPlaces_.full()) {
-                        addNearPanel(panels_[panel], charge, field, potential);
-                    }
+                // Written always and counted when near: which it is can not be foretold, and a branch would cost more.
+                nearTargets_[static_cast<std::size_t>(nearPlaces_.count)] = target;
+                nearPlaces_.append(x[target], y[target], z[target],
+                                   dx * dx + dy * dy + dz * dz < panelNearSquared_[at]);
+                if (nearPlaces_.full()) {
+                    addNearPanel(panels_[panel], charge, field, potential);
                 }
             }
         }

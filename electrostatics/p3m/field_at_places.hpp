@@ -23,10 +23,11 @@ struct FieldAtPlaces {
     bool full() const { return count == most; }
     void clear() { count = 0; }
 
-    /// Only while not full.
-    void append(double atX, double atY, double atZ)
+    /// Only while not full. What is not kept is overwritten by the next one.
+    void append(double atX, double atY, double atZ, bool kept = true)
     {
-        const auto n = static_cast<std::size_t>(count++);
+        const auto n = static_cast<std::size_t>(count);
+        count += kept;
         x[n] = atX;
         y[n] = atY;
         z[n] = atZ;
