@@ -2,6 +2,7 @@
 #include "dem_coupling/liggghts/liggghts_dem.hpp"
 
 #include "dem_coupling/liggghts/contact_models.hpp"
+#include "dem_coupling/liggghts/cut_domain.hpp"
 #include "dem_coupling/liggghts/fix_constrain_plane.hpp"
 #include "dem_coupling/liggghts/fix_enable_electric_field.hpp"
 #include "dem_coupling/liggghts/fix_registry.hpp"
@@ -84,6 +85,7 @@ LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
         screen_->setScriptLine([this] { return scriptLine(*lmp_->input); });
     }
     registerFixes(lmp_.get());
+    registerCutDomain(lmp_.get());
     lmp_->input->file(script_.c_str());
 
     for (const ListedWall& wall : listWalls(lmp_.get())) {

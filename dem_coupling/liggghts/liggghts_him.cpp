@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // liggghtsHim: plain LIGGGHTS with himFoam's styles, for scenes without OpenFOAM. Takes LIGGGHTS' own command line.
 #include "dem_coupling/liggghts/contact_models.hpp"
+#include "dem_coupling/liggghts/cut_domain.hpp"
 #include "dem_coupling/liggghts/fix_registry.hpp"
 
 #include "input.h"
@@ -18,6 +19,7 @@ int main(int argc, char** argv)
         him::registerContactModels();
         LAMMPS_NS::LAMMPS liggghts(argc, argv, MPI_COMM_WORLD);
         him::registerFixes(&liggghts);
+        him::registerCutDomain(&liggghts);
         liggghts.input->file();
     }
     MPI_Finalize();
