@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the runs of one size have found: pressure drop over weight, charge per mass and its saturation, the wall layer; draws them.
-Exit code 1 when the uncharged bed does not carry its weight or a charge book does not close. Usage: check.py small|medium|full"""
+Exit code 1 when the uncharged bed does not carry its weight, a charge book does not close, or what the paper says (findings.py) is not so. Usage: check.py small|medium|full"""
 
 import glob
 import os
@@ -9,6 +9,8 @@ import re
 import sys
 
 import numpy as np
+
+from findings import findings
 
 
 DIAMETER = 277e-6   # [m]
@@ -41,9 +43,11 @@ class Run:
     def late(self, name, seconds=0.5):
         return np.mean(self.bed[name][self.time > self.time[-1] - seconds])
 
-    def segregation(self):
-        """Mean charge within 1.25 diameters of a wall over that of the rest, in the last time-averaged profile."""
-        profiles = glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat")
+    def segregation(self, charging_time=np.inf):
+        """Mean charge within 1.25 diameters of a wall over that of the rest, in the last time-averaged profile up to a charging time [s]."""
+        until = np.max(self.time[self.bed["chargingTime"] < charging_time + 0.1])
+        profiles = [path for path in glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat")
+                    if float(path.split("/")[-2]) <= until]
         if not profiles:        # of a run that was stopped before its first checkpoint
             return np.nan
         last = max(profiles, key=lambda p: float(p.split("/")[-2]))
@@ -119,6 +123,9 @@ def main():
         print(f"    momentum: after {steps:.0f} gas steps the gas is ahead of the particles by {worst:.2f} steps' exchange: "
               f"{'ok' if worst < 2 else 'FAILED'}")
         ok = ok and worst < 2
+    for sentence, so in findings(runs, base):
+        print(f"{sentence}: {'as found' if so is None else 'ok' if so else 'FAILED'}")
+        ok = ok and so is not False
     os.makedirs("doc", exist_ok=True)
     draw(size, runs, weight)
     return 0 if ok else 1

@@ -7,7 +7,7 @@ import unittest
 
 from restart_test import DUMP, continuing
 from tiny_case import CaseTests, TinyCase
-from wall_charges_test import bed
+from falling_bed import bed
 
 COUPLING = "constant/couplingProperties"
 SWITCH = "wallContactField total;"

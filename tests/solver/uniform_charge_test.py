@@ -5,7 +5,7 @@ import unittest
 
 from restart_test import DUMP, continuing, last_frame
 from tiny_case import PARTICLES, CaseTests, TinyCase
-from wall_charges_test import bed
+from falling_bed import bed
 
 COUPLING = "constant/couplingProperties"
 SWITCH = "wallContactField total;"
