@@ -22,6 +22,9 @@ constexpr double mostBins = 2;
 /// A point is well inside a cell when it is further from its faces than this share of the mesh size.
 constexpr double wellApart = 1e-12;
 
+/// The normal of a face across an axis has no more than this share of its length along the others: round-off of its corners.
+constexpr double acrossAxis = 1e-14;
+
 /// A face is plane when no point is further from its plane than this share of its size.
 constexpr double planeness = 1e-9;
 
@@ -61,6 +64,7 @@ cellLocator::cellLocator(const Foam::polyMesh& mesh) : mesh_(mesh)
         }
         cellBox_.push_back(box.grownBy(margin));
         listFacePlanes(cell);
+        boxInside_.push_back(isBox(cell) ? box.grownBy(-wellApart * bounds_.size().maxCoeff()) : Box());
     }
 
     layBins();
@@ -143,6 +147,17 @@ void cellLocator::listFacePlanes(Foam::label cell)
     planeStart_.push_back(planes_.size());
 }
 
+/// Whether the cell's faces are plane and across the axes.
+bool cellLocator::isBox(Foam::label cell) const
+{
+    const auto c = static_cast<std::size_t>(cell);
+    const auto across = [](const Plane& plane) {
+        return plane.normal.cwiseAbs().maxCoeff() > (1 - acrossAxis) * plane.normal.lpNorm<1>();
+    };
+    return planeStart_[c + 1] - planeStart_[c] == 6
+           && std::all_of(planes_.begin() + static_cast<long>(planeStart_[c]), planes_.end(), across);
+}
+
 Eigen::Array3i cellLocator::binOf(const Vector3& point) const
 {
     return {axis_[0].bin(point[0]), axis_[1].bin(point[1]), axis_[2].bin(point[2])};
@@ -219,7 +234,10 @@ Foam::label cellLocator::find(const Vector3& point) const
     }
     const std::size_t bin = binAt(point);
     const Foam::label middle = middleCell_[bin];
-    return middle >= 0 && wellInside(point, middle) ? middle : search(point, bin);
+    if (middle >= 0 && (boxInside_[static_cast<std::size_t>(middle)].contains(point) || wellInside(point, middle))) {
+        return middle;
+    }
+    return search(point, bin);
 }
 
 }  // namespace him
