@@ -166,20 +166,40 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
         return best;
     }
     const double tolerance = sameDistance * (reach_ + binSize_);
-    for (const Index face : bin->second) {
-        // No face is nearer than its box, and few boxes of a bin are within reach: most faces go without their triangles.
+    const auto boxDistance = [&](Index face) {
+        return serves(face, wall) ? squaredDistance(point, boxes_[static_cast<std::size_t>(face)])
+                                  : std::numeric_limits<double>::infinity();
+    };
+    const auto consider = [&](Index face) {
         const double useful = tolerance + (best.face < 0 ? reach_ : std::min(reach_, best.distance + tolerance));
-        if (!serves(face, wall) || squaredDistance(point, boxes_[static_cast<std::size_t>(face)]) > useful * useful) {
-            continue;
+        if (boxDistance(face) > useful * useful) {
+            return;
         }
         const double away = distance(point, face);
         if (away > reach_) {
-            continue;
+            return;
         }
         const bool nearer = best.face < 0 || away < best.distance - tolerance;
         const bool asNear = best.face >= 0 && std::abs(away - best.distance) <= tolerance;
         if (nearer || (asNear && before(centreOf(face), centreOf(best.face), tolerance))) {
             best = {face, away};
+        }
+    };
+    // No face is nearer than its box. The face of the nearest box is nearly always the one, and leaves few others to look at.
+    const std::vector<Index>& faces = bin->second;
+    Index first = faces.front();
+    double least = boxDistance(first);
+    for (const Index face : faces) {
+        const double square = boxDistance(face);
+        if (square < least) {
+            first = face;
+            least = square;
+        }
+    }
+    consider(first);
+    for (const Index face : faces) {
+        if (face != first) {
+            consider(face);
         }
     }
     return best;
