@@ -6,6 +6,7 @@ import unittest
 
 from falling_bed import bed, faces_of
 from insulating_walls_test import INTERFACE
+from restart_test import continuing
 from tiny_case import CaseTests
 
 
@@ -76,8 +77,6 @@ class WallCharges(CaseTests):
         straight = bed(self.folder + "/straight")
         straight.replace("system/controlDict", "endTime 2e-3;", "endTime 4e-3;")
         straight.replace("system/controlDict", "writeFormat ascii;", "writeFormat binary;")
-        from restart_test import continuing, PARTICLES  # the script with a branch on the time that himFoam starts from
-        self.assertTrue(PARTICLES)
         script = straight.path / "DEM/in.cube"
         script.write_text(continuing(script.read_text()))
         row = self.last_row(straight)
