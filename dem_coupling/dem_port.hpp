@@ -164,6 +164,9 @@ public:
     /// promised for a duration [s] with the velocities of that moment; in the order of particles(), not collective. Zeros
     /// before the first setGasForces().
     virtual void gasImpulse(Points& given, double duration, Points& promised) const = 0;
+    /// Impulse [N s] that the gas has given since setGasForces() to particles that were taken out before gasImpulse() could
+    /// name it, buoyancy left out. This rank's part of a sum that means something over all ranks only. Not collective.
+    virtual Vector3 gasImpulseTakenOut() const { return Vector3::Zero(); }
     /// Particles that there must be, all ranks: those of the hand-over and those that appeared, less those that were taken
     /// out with permission.
     virtual std::int64_t particleCount() const = 0;

@@ -131,24 +131,21 @@ void MeshLocator::deposit(const Scalars& charge, Scalars& cellCharge)
     }
 }
 
-void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Points& values)
+void MeshLocator::answerVectors(const std::function<Vector3(std::size_t, std::size_t)>& valueOfAnswer)
 {
     exchange_.clear(outgoing_);
     for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
-        for (const Index cell : answeredCells_[rank]) {
-            const Vector3 value = cell >= 0 ? valueOfCell(cell) : Vector3::Zero().eval();
+        for (std::size_t n = 0; n < answeredCells_[rank].size(); ++n) {
+            const Vector3 value = answeredCells_[rank][n] >= 0 ? valueOfAnswer(rank, n) : Vector3::Zero().eval();
             outgoing_[rank].insert(outgoing_[rank].end(), {value[0], value[1], value[2]});
         }
         incoming_[rank].resize(3 * askedRows_[rank].size());
     }
     exchange_.answer(outgoing_, incoming_);
+}
 
-    values.setZero(static_cast<Index>(owner_.size()), 3);
-    for (std::size_t row = 0; row < cell_.size(); ++row) {
-        if (cell_[row] >= 0) {
-            values.row(static_cast<Index>(row)) = valueOfCell(cell_[row]).transpose().array();
-        }
-    }
+void MeshLocator::takeAnswers(Points& values) const
+{
     for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
         for (std::size_t n = 0; n < askedRows_[rank].size(); ++n) {
             const Index row = askedRows_[rank][n];
@@ -158,6 +155,50 @@ void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Point
             }
         }
     }
+}
+
+void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Points& values)
+{
+    answerVectors([&](std::size_t rank, std::size_t n) { return valueOfCell(answeredCells_[rank][n]); });
+    values.setZero(static_cast<Index>(owner_.size()), 3);
+    for (std::size_t row = 0; row < cell_.size(); ++row) {
+        if (cell_[row] >= 0) {
+            values.row(static_cast<Index>(row)) = valueOfCell(cell_[row]).transpose().array();
+        }
+    }
+    takeAnswers(values);
+}
+
+void MeshLocator::gather(const Points& positions, const std::function<Vector3(Index, const Vector3&)>& valueAt,
+                         Points& values)
+{
+    const auto pointOf = [&](Index row) -> Vector3 {
+        const Vector3 position = positions.row(row).matrix().transpose();
+        return position + shiftIntoBox(position);
+    };
+    exchange_.clear(outgoing_);
+    for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
+        for (const Index row : askedRows_[rank]) {
+            const Vector3 point = pointOf(row);
+            outgoing_[rank].insert(outgoing_[rank].end(), {point[0], point[1], point[2]});
+        }
+        incoming_[rank].resize(3 * answeredCells_[rank].size());
+    }
+    exchange_.answer(outgoing_, incoming_);
+    asked_.swap(incoming_);
+    incoming_.resize(asked_.size());
+
+    answerVectors([&](std::size_t rank, std::size_t n) {
+        return valueAt(answeredCells_[rank][n], Vector3(asked_[rank].data() + 3 * n));
+    });
+    values.setZero(static_cast<Index>(owner_.size()), 3);
+    for (std::size_t row = 0; row < cell_.size(); ++row) {
+        if (cell_[row] >= 0) {
+            const auto r = static_cast<Index>(row);
+            values.row(r) = valueAt(cell_[row], pointOf(r)).transpose().array();
+        }
+    }
+    takeAnswers(values);
 }
 
 }  // namespace him

@@ -42,8 +42,17 @@ public:
     /// One vector per row, taken from the cell that holds it; zero for rows outside. Only neighbours talk.
     /// @param valueOfCell  called with local cells on the rank that owns them
     void gather(const std::function<Vector3(Index)>& valueOfCell, Points& values);
+    /// The same with the place of each row inside its cell.
+    /// @param positions  those of locate() [m]
+    /// @param valueAt    called with local cells and points in them [m], periodic copies brought into the box
+    void gather(const Points& positions, const std::function<Vector3(Index, const Vector3&)>& valueAt, Points& values);
 
 private:
+    /// To the ranks that were asked about rows, one vector for each of their answers: what `incoming_` holds afterwards.
+    void answerVectors(const std::function<Vector3(std::size_t, std::size_t)>& valueOfAnswer);
+    /// Rows of other ranks' cells from what they have answered.
+    void takeAnswers(Points& values) const;
+
     const CellMesh& mesh_;
     Box demBox_;
     std::array<bool, 3> periodic_;
@@ -55,7 +64,7 @@ private:
     Points cellCentre_;
     std::vector<std::vector<Index>> askedRows_;      ///< rows that each rank was asked about
     std::vector<std::vector<Index>> answeredCells_;  ///< local cells, or -1, of what each rank asked here
-    SparseExchange::Buffers outgoing_, incoming_;
+    SparseExchange::Buffers outgoing_, incoming_, asked_;
 };
 
 }  // namespace him

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace him {
 
@@ -22,13 +21,70 @@ double stokes(const DragPoint& at)
     return 3 * pi * at.viscosity * at.diameter;
 }
 
-using Entry = std::pair<const char*, double (*)(const DragPoint&)>;
-constexpr std::array<Entry, 6> laws{{{"WenYu", &wenYuDrag},
-                                     {"SchillerNaumann", &schillerNaumannDrag},
-                                     {"Gidaspow", &gidaspowDrag},
-                                     {"Beetstra", &beetstraDrag},
-                                     {"DiFelice", &diFeliceDrag},
-                                     {"KochHill", &kochHillDrag}}};
+/// Drag of a single sphere is 0.44 up to the drag crisis.
+constexpr double dragCrisis = 2e5;
+
+bool wenYuHolds(const DragPoint& at)
+{
+    return at.voidFraction >= 0.4 && superficialReynolds(at) <= dragCrisis;
+}
+
+bool schillerNaumannHolds(const DragPoint& at)
+{
+    // Neighbours add 5 % at 0.98 by Wen and Yu's voidFraction^-2.65.
+    return at.voidFraction >= 0.98 && at.density * at.slip * at.diameter / at.viscosity <= dragCrisis;
+}
+
+bool gidaspowHolds(const DragPoint& at)
+{
+    // Ergun drew his measurements over Re/(1 - voidFraction).
+    return at.voidFraction >= 0.8 ? wenYuHolds(at)
+                                  : at.voidFraction >= 0.36 && superficialReynolds(at) <= 2500 * (1 - at.voidFraction);
+}
+
+bool beetstraHolds(const DragPoint& at)
+{
+    return at.voidFraction >= 0.4 && at.voidFraction <= 0.9 && superficialReynolds(at) <= 1000;
+}
+
+bool diFeliceHolds(const DragPoint& at)
+{
+    return at.voidFraction >= 0.4 && superficialReynolds(at) <= 1e4;
+}
+
+bool kochHillHolds(const DragPoint& at)
+{
+    return at.voidFraction >= 0.36 && superficialReynolds(at) <= 120;
+}
+
+struct Entry {
+    const char* name;
+    double (*law)(const DragPoint&);
+    DragLawRange holds;
+    const char* range;
+};
+constexpr std::array<Entry, 6> laws{{
+    {"WenYu", &wenYuDrag, &wenYuHolds, "void fraction from 0.4, Re up to 2e5"},
+    {"SchillerNaumann", &schillerNaumannDrag, &schillerNaumannHolds, "void fraction from 0.98, Re up to 2e5"},
+    {"Gidaspow", &gidaspowDrag, &gidaspowHolds,
+     "void fraction from 0.36, Re/(1 - void fraction) up to 2500 below void fraction 0.8, Re up to 2e5 above"},
+    {"Beetstra", &beetstraDrag, &beetstraHolds, "void fraction 0.4 to 0.9, Re up to 1000"},
+    {"DiFelice", &diFeliceDrag, &diFeliceHolds, "void fraction from 0.4, Re up to 1e4"},
+    {"KochHill", &kochHillDrag, &kochHillHolds, "void fraction from 0.36, Re up to 120"},
+}};
+
+const Entry& entryOf(const std::string& name)
+{
+    const auto* found = std::find_if(laws.begin(), laws.end(), [&](const Entry& law) { return name == law.name; });
+    if (found == laws.end()) {
+        std::string known;
+        for (const Entry& law : laws) {
+            known += (known.empty() ? "" : ", ") + std::string(law.name);
+        }
+        throw std::invalid_argument("unknown drag law '" + name + "'; known: " + known);
+    }
+    return *found;
+}
 
 }  // namespace
 
@@ -36,22 +92,24 @@ std::vector<std::string> dragLawNames()
 {
     std::vector<std::string> names;
     for (const Entry& law : laws) {
-        names.emplace_back(law.first);
+        names.emplace_back(law.name);
     }
     return names;
 }
 
 DragLaw makeDragLaw(const std::string& name)
 {
-    const auto found = std::find_if(laws.begin(), laws.end(), [&](const Entry& law) { return name == law.first; });
-    if (found == laws.end()) {
-        std::string known;
-        for (const std::string& law : dragLawNames()) {
-            known += (known.empty() ? "" : ", ") + law;
-        }
-        throw std::invalid_argument("unknown drag law '" + name + "'; known: " + known);
-    }
-    return found->second;
+    return entryOf(name).law;
+}
+
+DragLawRange dragLawRange(const std::string& name)
+{
+    return entryOf(name).holds;
+}
+
+std::string dragLawRangeInWords(const std::string& name)
+{
+    return entryOf(name).range;
 }
 
 double superficialReynolds(const DragPoint& at)

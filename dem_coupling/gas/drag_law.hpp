@@ -30,6 +30,14 @@ std::vector<std::string> dragLawNames();
 /// Throws std::invalid_argument that lists the known names.
 DragLaw makeDragLaw(const std::string& name);
 
+/// Whether a law has been shown to hold somewhere, by measurements or simulations that its source rests on.
+using DragLawRange = bool (*)(const DragPoint&);
+
+/// That of a law by name. Throws as makeDragLaw() does.
+DragLawRange dragLawRange(const std::string& name);
+/// The same in words, for the log.
+std::string dragLawRangeInWords(const std::string& name);
+
 /// Reynolds number of the superficial slip, voidFraction density slip diameter / viscosity [-].
 double superficialReynolds(const DragPoint& at);
 /// C_D Re of a single sphere by Schiller and Naumann: 24 (1 + 0.15 Re^0.687), 0.44 Re above Re = 1000 (S2.8 with its 0.44).

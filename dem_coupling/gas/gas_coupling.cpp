@@ -27,12 +27,15 @@ template <std::size_t N> std::array<double, N> sumOverRanks(std::array<double, N
 
 }  // namespace
 
-GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& settings, MPI_Comm communicator)
+GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& settings, MPI_Comm communicator,
+                         VelocityProfile* profile)
     : dem_(dem),
       mesh_(mesh),
       settings_(settings),
       communicator_(communicator),
       law_(makeDragLaw(settings.drag)),
+      lawHolds_(dragLawRange(settings.drag)),
+      profile_(profile),
       shares_(mesh, communicator, dem.box(), dem.periodic(), settings.voidFraction == VoidFractionModel::divided),
       volume_(mesh.cellCount())
 {
@@ -182,9 +185,14 @@ void GasCoupling::refuseOutside(const DemParticles& particles) const
 void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
 {
     toRows(velocity, velocityAtRow_);
+    if (profile_) {
+        findDeviations(particles, velocity);
+        velocityAtRow_ += deviation_;
+    }
     toRows(sources_.voidFraction, voidFractionAtRow_);
 
     forces_.resize(particles.size(), settings_.needsGasMotion());
+    beyondDragLaw_ = 0;
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
@@ -193,22 +201,37 @@ void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
         const DragPoint point{voidFractionAtRow_[row], slip, 2 * particles.radius[row], settings_.density,
                               settings_.viscosity};
         const double beta = law_(point);
+        beyondDragLaw_ += !lawHolds_(point);
         forces_.drag[row] = settings_.pressure == PressureModel::modelB ? dragOfModelB(beta, point.voidFraction) : beta;
     }
     toCells(forces_.drag, sources_.drag);
     for (int axis = 0; axis < 3; ++axis) {
-        toCells(forces_.drag * particles.velocity.col(axis), sources_.dragMomentum.col(axis));
+        if (profile_) {
+            toCells(forces_.drag * (particles.velocity.col(axis) - deviation_.col(axis)),
+                    sources_.dragMomentum.col(axis));
+        } else {
+            toCells(forces_.drag * particles.velocity.col(axis), sources_.dragMomentum.col(axis));
+        }
     }
+}
+
+void GasCoupling::findDeviations(const DemParticles& particles, const Points& velocity)
+{
+    // Of what was gathered: toRows() has left the smoothed velocities there.
+    profile_->update(settings_.voidFraction == VoidFractionModel::smoothed ? smoothed_ : velocity);
+    shares_.gather(
+        particles, [this](Index cell, const Vector3& point) { return profile_->deviation(cell, point); }, deviation_);
 }
 
 void GasCoupling::layOwed()
 {
     dem_.gasImpulse(given_, lastDuration_, promised_);
+    const Vector3 takenOut = dem_.gasImpulseTakenOut();
     std::array<double, 7> sums{};
     for (int axis = 0; axis < 3; ++axis) {
         toCells(given_.col(axis) - promised_.col(axis), sources_.owed.col(axis));
         const auto column = static_cast<std::size_t>(axis);
-        sums[column] = given_.col(axis).sum();
+        sums[column] = given_.col(axis).sum() + takenOut[axis];
         sums[3 + column] = (sources_.owed.col(axis) * volume_).sum();
     }
     sums[6] = (sources_.drag * volume_).sum();
@@ -231,6 +254,7 @@ void GasCoupling::addUnpaidForces(const DemParticles& particles, const GasResult
 {
     toRows(result.acceleration, gathered_);
     toRows(result.vorticity, vorticityAtRow_);
+    beyondLift_ = 0;
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
@@ -241,10 +265,10 @@ void GasCoupling::addUnpaidForces(const DemParticles& particles, const GasResult
         if (settings_.saffmanLift) {
             const Vector3 slip = (forces_.velocity.row(row) - particles.velocity.row(row)).matrix().transpose();
             const Vector3 vorticity = vorticityAtRow_.row(row).matrix().transpose();
+            const double diameter = 2 * particles.radius[row];
             forces_.unpaid.row(row) +=
-                saffmanLift(settings_.density, settings_.viscosity, 2 * particles.radius[row], slip, vorticity)
-                    .transpose()
-                    .array();
+                saffmanLift(settings_.density, settings_.viscosity, diameter, slip, vorticity).transpose().array();
+            beyondLift_ += !saffmanHolds(settings_.density, settings_.viscosity, diameter, slip, vorticity);
         }
     }
 }
@@ -252,6 +276,9 @@ void GasCoupling::addUnpaidForces(const DemParticles& particles, const GasResult
 void GasCoupling::handBack(const DemParticles& particles, const GasResult& result, double duration)
 {
     toRows(result.velocity, forces_.velocity);
+    if (profile_) {
+        forces_.velocity += deviation_;
+    }
     if (settings_.pressure == PressureModel::modelA) {
         toRows(result.pressureForce, gathered_);
     }
@@ -270,7 +297,9 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
     }
     dem_.setGasForces(forces_);
     lastDuration_ = duration;
-    std::array<double, 3> sums{};
+    std::array<double, 5> sums{};
+    sums[3] = static_cast<double>(beyondDragLaw_);
+    sums[4] = static_cast<double>(beyondLift_);
     for (int axis = 0; axis < 3; ++axis) {
         sums[static_cast<std::size_t>(axis)] =
             (forces_.drag * (forces_.velocity.col(axis) - particles.velocity.col(axis)) + forces_.force.col(axis))
@@ -278,6 +307,8 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
     }
     sums = sumOverRanks(sums, communicator_);
     summary_.force = Vector3(sums[0], sums[1], sums[2]);
+    summary_.beyondDragLaw = static_cast<std::int64_t>(sums[3]);
+    summary_.beyondLift = static_cast<std::int64_t>(sums[4]);
     books_.given += result.given;
     books_.ahead += result.given;
     books_.promised = duration * summary_.force;

@@ -5,6 +5,7 @@
 #include "dem_coupling/gas/gas_mesh.hpp"
 #include "dem_coupling/gas/gas_settings.hpp"
 #include "dem_coupling/gas/particle_shares.hpp"
+#include "dem_coupling/gas/velocity_profile.hpp"
 
 namespace him {
 
@@ -51,6 +52,8 @@ struct GasSummary {
     Vector3 massCentre = Vector3::Zero();  ///< of the particles [m]
     Vector3 momentum = Vector3::Zero();    ///< of the particles, at the end of the step [N s]
     Vector3 force = Vector3::Zero();  ///< of drag and pressure gradient on the particles, at the end of the step [N]
+    std::int64_t beyondDragLaw = 0;   ///< particles where the drag law has not been shown to hold, see DragLawRange
+    std::int64_t beyondLift = 0;      ///< the same of the lift, see saffmanHolds()
 };
 
 /// The exchange of momentum between gas and particles, on any mesh and DEM. Holds no gas equation.
@@ -59,9 +62,15 @@ struct GasSummary {
 /// solves with the drag implicit in its own velocity; handBack() gives velocity and pressure force to the particles. What
 /// a particle then gets differs a little from what the gas gave for it, because its velocity moves on and it hits others:
 /// collect() returns the difference to the gas as GasSources::owed. Momentum of gas and particles together is thus kept.
+///
+/// With a profile a particle feels the velocity where it is: u = U + d, with the cell's U, which the gas solve finds, and the
+/// deviation d at the particle's place in the velocities before that solve. The gas gives beta (U + d - v) as well, so that
+/// both agree in every cell.
 class GasCoupling {
 public:
-    GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& settings, MPI_Comm communicator);
+    /// @param profile  of the gas velocity inside the cells; null: a particle feels the velocity of its cell
+    GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& settings, MPI_Comm communicator,
+                VelocityProfile* profile = nullptr);
 
     /// Lays the particles on the mesh without any drag: for the void fraction before the first step. Collective.
     void begin(const DemParticles& particles);
@@ -88,6 +97,8 @@ private:
     /// Throws std::runtime_error with a particle that is outside the mesh. Collective.
     [[noreturn]] void refuseOutside(const DemParticles& particles) const;
     void layDrag(const DemParticles& particles, const Points& velocity);
+    /// Deviation of the gas velocity at the particles from that of their cells, by the profile. After toRows(velocity, ...).
+    void findDeviations(const DemParticles& particles, const Points& velocity);
     void layOwed();
     /// Lift and what the acceleration of the gas does to a particle, from where velocities and results are gathered.
     void addUnpaidForces(const DemParticles& particles, const GasResult& result);
@@ -101,14 +112,18 @@ private:
     GasSettings settings_;
     MPI_Comm communicator_;
     DragLaw law_;
+    DragLawRange lawHolds_;
+    VelocityProfile* profile_;  ///< or null
     ParticleShares shares_;
     GasSources sources_;
     GasForces forces_;
     GasSummary summary_;
     MomentumBooks books_;
-    double lastDuration_ = 0;  ///< [s]
+    double lastDuration_ = 0;                   ///< [s]
+    Index beyondDragLaw_ = 0, beyondLift_ = 0;  ///< of this rank
     Scalars volume_, cell_, voidFractionAtRow_;
     Points given_, promised_, smoothed_, gathered_, velocityAtRow_, vorticityAtRow_;
+    Points deviation_;  ///< of the gas velocity at each row from that of its cells [m/s]; no rows without a profile
 };
 
 }  // namespace him

@@ -25,6 +25,19 @@ inline const std::vector<std::string>& voidFractionModelNames()
     return names;
 }
 
+/// Which velocity of the gas a particle feels.
+enum class VelocityInterpolation {
+    cell,      ///< that of its cell
+    cellPoint  ///< linear between the centre and the points of its cell
+};
+
+/// Names of the interpolations, in the order of the enumeration.
+inline const std::vector<std::string>& velocityInterpolationNames()
+{
+    static const std::vector<std::string> names{"cell", "cellPoint"};
+    return names;
+}
+
 struct GasSettings {
     double density = 0;                 ///< [kg/m3]
     double viscosity = 0;               ///< dynamic [Pa s]
@@ -32,8 +45,9 @@ struct GasSettings {
     PressureModel pressure = PressureModel::modelA;
     std::string drag;  ///< see dragLawNames()
     VoidFractionModel voidFraction = VoidFractionModel::centre;
-    double smoothingLength = 0;            ///< of smoothed [m]
-    double smallestVoidFraction = 0.1;     ///< cells below are set to it, counted and reported [-]
+    double smoothingLength = 0;         ///< of smoothed [m]
+    double smallestVoidFraction = 0.1;  ///< cells below are set to it, counted and reported [-]
+    VelocityInterpolation velocity = VelocityInterpolation::cell;
     bool particlesOutsideAllowed = false;  ///< else one outside the mesh stops the run
     double virtualMass = 0;                ///< added mass over the mass of the displaced gas; 0.5 for a sphere [-]
     bool saffmanLift = false;

@@ -29,4 +29,18 @@ inline Vector3 saffmanLift(double density, double viscosity, double diameter, co
     return saffman * diameter * diameter * std::sqrt(density * viscosity / size) * slip.cross(vorticity);
 }
 
+/// Whether Saffman's assumptions hold in the least: Re of slip and shear up to one, and that of the slip up to the root of that
+/// of the shear; beyond the last the lift is smaller (McLaughlin 1991, J. Fluid Mech. 224, 261). Arguments as above.
+inline bool saffmanHolds(double density, double viscosity, double diameter, const Vector3& slip,
+                         const Vector3& vorticity)
+{
+    const double ofSlip = density * slip.norm() * diameter / viscosity;
+    const double ofShear = density * vorticity.norm() * diameter * diameter / viscosity;
+    return ofSlip <= 1 && ofShear <= 1 && ofSlip * ofSlip <= ofShear;
+}
+
+/// The same in words, for the log.
+constexpr const char* saffmanRangeInWords =
+    "Re of slip and shear up to 1, that of slip up to the root of that of shear";
+
 }  // namespace him

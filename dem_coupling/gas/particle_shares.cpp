@@ -89,6 +89,22 @@ void ParticleShares::gather(const std::function<Vector3(Index)>& valueOfCell, Po
         return;
     }
     locator_.gather(valueOfCell, pointVector_);
+    meanOfPoints(ofRow);
+}
+
+void ParticleShares::gather(const DemParticles& particles, const std::function<Vector3(Index, const Vector3&)>& valueAt,
+                            Points& ofRow)
+{
+    if (points_ == 1) {
+        locator_.gather(particles.position, valueAt, ofRow);
+        return;
+    }
+    locator_.gather(place_, valueAt, pointVector_);
+    meanOfPoints(ofRow);
+}
+
+void ParticleShares::meanOfPoints(Points& ofRow) const
+{
     ofRow.setZero(static_cast<Index>(inside_.size()), 3);
     for (Index row = 0; row < ofRow.rows(); ++row) {
         const int inside = inside_[static_cast<std::size_t>(row)];

@@ -29,8 +29,17 @@ public:
     void deposit(const Scalars& ofRow, Scalars& ofCell);
     /// Per row the mean over its shares of a value of cells. Collective; valueOfCell is called on the rank of the cell.
     void gather(const std::function<Vector3(Index)>& valueOfCell, Points& ofRow);
+    /// Per row the mean over its points of a value that varies inside the cells. Collective; valueAt is called on the rank of
+    /// the cell.
+    /// @param particles  those of locate()
+    /// @param valueAt    of a local cell and a point in it [m]
+    void gather(const DemParticles& particles, const std::function<Vector3(Index, const Vector3&)>& valueAt,
+                Points& ofRow);
 
 private:
+    /// Per row the mean of pointVector_ over its points in the mesh.
+    void meanOfPoints(Points& ofRow) const;
+
     MeshLocator locator_;
     Index points_;             ///< per particle
     std::vector<int> inside_;  ///< points of each row in the mesh

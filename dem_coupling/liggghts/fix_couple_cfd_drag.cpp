@@ -64,6 +64,7 @@ void FixCoupleCfdDrag::setForces(const GasForces& forces)
             row[given + d] = 0;
         }
     }
+    givenToAll_.setZero();
 }
 
 void FixCoupleCfdDrag::impulse(Points& gained, double duration, Points& expected) const
@@ -76,6 +77,15 @@ void FixCoupleCfdDrag::impulse(Points& gained, double duration, Points& expected
             expected(i, d) = held_[i][promised + d] * duration;
         }
     }
+}
+
+Vector3 FixCoupleCfdDrag::impulseTakenOut() const
+{
+    Vector3 left = givenToAll_;
+    for (int i = 0; i < atom->nlocal; ++i) {
+        left -= Eigen::Map<const Vector3>(held_[i] + given);
+    }
+    return left;
 }
 
 int FixCoupleCfdDrag::setmask()
@@ -96,6 +106,7 @@ void FixCoupleCfdDrag::post_force(int)
 void FixCoupleCfdDrag::apply(double counted)
 {
     const double dt = update->dt;
+    Vector3 all = Vector3::Zero();
     for (int i = 0; i < atom->nlocal; ++i) {
         if (!(atom->mask[i] & groupbit)) {
             continue;
@@ -107,13 +118,16 @@ void FixCoupleCfdDrag::apply(double counted)
         for (int d = 0; d < 3; ++d) {
             const double before = atom->f[i][d];
             const double rest = before + row[gasForce + d] + row[unpaid + d] + row[buoyancy + d];
-            const double all = share * (rest + beta * (row[velocity + d] - atom->v[i][d] - timePerMass * rest));
-            const double now = all - before - row[buoyancy + d];
+            const double total = share * (rest + beta * (row[velocity + d] - atom->v[i][d] - timePerMass * rest));
+            const double now = total - before - row[buoyancy + d];
             row[given + d] += counted * (row[applied + d] + now);
             row[applied + d] = now;
-            atom->f[i][d] = all;
+            all[d] += now;
+            atom->f[i][d] = total;
         }
     }
+    givenToAll_ += counted * (appliedToAll_ + all);
+    appliedToAll_ = all;
 }
 
 void FixCoupleCfdDrag::grow_arrays(int rows)

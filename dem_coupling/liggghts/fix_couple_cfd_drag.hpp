@@ -19,7 +19,9 @@ namespace him {
 /// the slip is exactly weight/beta. The added mass takes its share of every acceleration: (F + F_drag) m/M is applied.
 ///
 /// Each particle keeps account of the impulse that the gas gave it, buoyancy left out, as the integrator applies it: half of
-/// dt with the force of the step before, half with that of the step itself. Account and forces go into restart files.
+/// dt with the force of the step before, half with that of the step itself. Account and forces go into restart files. The sum
+/// over all particles is kept as well. LIGGGHTS takes particles out between the two halves of a step (pre_exchange, and at open
+/// ends of the box): what they got until then, the first half included, is in the sum alone.
 class FixCoupleCfdDrag : public LAMMPS_NS::Fix {
 public:
     FixCoupleCfdDrag(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
@@ -30,6 +32,8 @@ public:
     /// Impulse [N s] of the gas since setForces(), and what drag and force promised for `duration` [s] when they were set, in
     /// the order of the rows.
     void impulse(Points& gained, double duration, Points& expected) const;
+    /// Impulse [N s] of the gas since setForces() to particles that are no longer there; the sum over all ranks counts.
+    Vector3 impulseTakenOut() const;
     /// Particles that appeared on this rank since this fix was made.
     std::int64_t arrivals() const { return arrivals_; }
     /// Whether the rows of this rank came from a restart file.
@@ -52,7 +56,9 @@ private:
     /// Adds the forces of the moment. @param counted  share of dt that the forces before and now have acted by [s]
     void apply(double counted);
 
-    double** held_ = nullptr;  ///< see the columns in the source
+    double** held_ = nullptr;                 ///< see the columns in the source
+    Vector3 appliedToAll_ = Vector3::Zero();  ///< what was counted in the last DEM step, this rank's rows of then [N]
+    Vector3 givenToAll_ = Vector3::Zero();    ///< impulse since setForces(), of those that were taken out too [N s]
     std::int64_t arrivals_ = 0;
     bool restarted_ = false;
 };

@@ -93,6 +93,10 @@ LiggghtsDem::LiggghtsDem(const DemOptions& options, MPI_Comm communicator)
     }
     charging_ = FixChargeGranContact::find(lmp_.get());
     if (options.hasGas && lmp_->domain->box_exist) {
+        // The drag is implicit in all forces of fixes before it, so the field's comes first.
+        if (needsCharge_ && lmp_->atom->q_flag) {
+            makeFieldFix();
+        }
         // Now, because a fix that comes after the first set-up is not called.
         command(std::string("fix ") + dragFixId + " all couple/cfd/drag");
         drag_ = static_cast<FixCoupleCfdDrag*>(lmp_->modify->find_fix_id(dragFixId));
@@ -230,11 +234,7 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field, c
         return;
     }
     if (!field_) {
-        field_ = FixCoupleCfdEfield::find(lmp_.get());  // the script may hold one of its own, with a limiter
-    }
-    if (!field_) {
-        command(std::string("fix ") + fieldFixId + " all couple/cfd/efield");
-        field_ = static_cast<FixCoupleCfdEfield*>(lmp_->modify->find_fix_id(fieldFixId));
+        makeFieldFix();
     }
     field_->setPointField(pointField_);
     if (near_) {
@@ -242,6 +242,15 @@ void LiggghtsDem::setField(const DemParticles& particles, const Points& field, c
         near_ = nullptr;
     }
     field_->setField(field, ownResponse);
+}
+
+void LiggghtsDem::makeFieldFix()
+{
+    field_ = FixCoupleCfdEfield::find(lmp_.get());
+    if (!field_) {
+        command(std::string("fix ") + fieldFixId + " all couple/cfd/efield");
+        field_ = static_cast<FixCoupleCfdEfield*>(lmp_->modify->find_fix_id(fieldFixId));
+    }
 }
 
 void LiggghtsDem::run(long steps)

@@ -53,6 +53,7 @@ public:
     void setGasForces(const GasForces& forces) override;
     bool gasForcesRestarted() const override;
     void gasImpulse(Points& given, double duration, Points& promised) const override;
+    Vector3 gasImpulseTakenOut() const override { return drag_ ? drag_->impulseTakenOut() : Vector3::Zero(); }
     std::int64_t particleCount() const override { return expected_; }
 
     ChargeMovements movements() const override;
@@ -86,6 +87,8 @@ private:
     void countParticles(const Account& before);
 
     void command(const std::string& line);
+    /// The fix that holds the field: the script's, which may have a limiter, or one that is made now.
+    void makeFieldFix();
     void checkContactModels(Complaints& complaints) const;
 
     std::string script_;
@@ -94,7 +97,7 @@ private:
     std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
     std::vector<DemWall> walls_;
     FixChargeGranContact* charging_ = nullptr;
-    FixCoupleCfdEfield* field_ = nullptr;  ///< made with the first field
+    FixCoupleCfdEfield* field_ = nullptr;  ///< made with the first field, or before the gas's fix
     FixCoupleCfdDrag* drag_ = nullptr;     ///< null without a gas
     bool needsCharge_;
     std::vector<LAMMPS_NS::FixPropertyAtom*> wallForces_;  ///< per wall fix; empty unless asked for

@@ -234,6 +234,7 @@ void printGas(const gasProperties& gas, const Foam::fvMesh& mesh)
                << exchange.drag.c_str() << ", pressure gradient by "
                << (exchange.pressure == PressureModel::modelA ? "modelA" : "modelB") << ", void fraction "
                << voidFractionModelNames()[static_cast<std::size_t>(exchange.voidFraction)].c_str() << ", "
+               << (exchange.velocity == VelocityInterpolation::cell ? "" : "velocity at particles by cellPoint, ")
                << (gas.turbulence.empty() ? "laminar" : "turbulence " + gas.turbulence).c_str() << ", "
                << Foam::returnReduce(mesh.nCells(), Foam::sumOp<Foam::label>()) << " cells\n";
     if (gas.adjustTimeStep) {

@@ -181,8 +181,15 @@ void gasFlow::collectResult(const fvVectorMatrix& UEqn, double deltaT)
     // convection and friction. What flows between cells cancels; the boundary's part is not given to particles.
     const volVectorField moved((UEqn & U_) + volVectorField(U_ * (fvc::ddt(alpha_) + fvc::div(alphaPhi_))));
     const scalarField& volumes = mesh_.V().field();
-    const vector given =
-        -deltaT * gSum(vectorField((rho_.value() * moved.primitiveField() + gradient.primitiveField()) * volumes));
+    // Not the sum of the reconstructed gradients: where faces stand askew it is not the pressure on the boundary.
+    vector pressed = Zero;
+    for (const fvPatchScalarField& patch : p_.boundaryField()) {
+        if (!patch.coupled()) {
+            pressed += sum(patch * patch.patch().Sf());
+        }
+    }
+    reduce(pressed, sumOp<vector>());
+    const vector given = -deltaT * (rho_.value() * gSum(vectorField(moved.primitiveField() * volumes)) + pressed);
     result_.given = toEigen(given);
     if (settings_.needsGasMotion()) {
         const volVectorField acceleration(fvc::ddt(U_) + (U_ & fvc::grad(U_)));

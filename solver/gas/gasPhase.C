@@ -6,6 +6,8 @@
 
 #include "foamPoissonMesh/conversions.H"
 
+#include "dem_coupling/gas/lift.hpp"
+
 #include "IOdictionary.H"
 #include "coupledPolyPatch.H"
 #include "emptyPolyPatch.H"
@@ -32,6 +34,16 @@ std::vector<Foam::label> listedPatches(const Foam::fvMesh& mesh)
     return listed;
 }
 
+/// What velocityInterpolation asks for.
+std::unique_ptr<VelocityProfile> profileOf(const GasSettings& settings, const Foam::volVectorField& U)
+{
+    if (settings.velocity == VelocityInterpolation::cell) {
+        return nullptr;
+    }
+    // The diffusion of `smoothed` takes no notice of walls.
+    return std::make_unique<cellPointVelocity>(U, settings.voidFraction != VoidFractionModel::smoothed);
+}
+
 void append(std::ostream& line, const Vector3& vector)
 {
     line << ' ' << vector[0] << ' ' << vector[1] << ' ' << vector[2];
@@ -47,7 +59,8 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
       times_(times),
       cells_(mesh),
       flow_(mesh, properties.exchange, !properties.turbulence.empty()),
-      coupling_(dem, cells_, properties.exchange, communicator),
+      profile_(profileOf(properties.exchange, flow_.velocity())),
+      coupling_(dem, cells_, properties.exchange, communicator, profile_.get()),
       earlier_(readState(mesh.time()))
 {
     if (properties_.maxDeltaT == 0) {
@@ -196,6 +209,15 @@ std::string gasPhase::describe() const
     }
     if (summary.particlesOutside > 0) {
         line += ", outside the mesh " + std::to_string(summary.particlesOutside) + " particle(s)";
+    }
+    if (summary.beyondDragLaw > 0) {
+        line += "\n    Warning: " + std::to_string(summary.beyondDragLaw) + " particle(s) where drag "
+                + properties_.exchange.drag + " has not been shown to hold ("
+                + dragLawRangeInWords(properties_.exchange.drag) + ")";
+    }
+    if (summary.beyondLift > 0) {
+        line += "\n    Warning: " + std::to_string(summary.beyondLift)
+                + " particle(s) where Saffman's lift does not hold (" + saffmanRangeInWords + ")";
     }
     return line;
 }

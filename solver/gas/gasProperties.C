@@ -47,6 +47,9 @@ gasProperties readGasProperties(const Foam::fileName& casePath, Complaints& comp
     exchange.pressure = entries.oneOf("pressureModel", {"modelA", "modelB"}, "modelA") == "modelB"
                             ? PressureModel::modelB
                             : PressureModel::modelA;
+    exchange.velocity = entries.oneOf("velocityInterpolation", velocityInterpolationNames(), "cell") == "cellPoint"
+                            ? VelocityInterpolation::cellPoint
+                            : VelocityInterpolation::cell;
     gas.turbulence = gasTurbulence::modelOf(casePath, complaints);
     exchange.virtualMass = entries.number("virtualMass", 0);
     if (exchange.virtualMass < 0) {

@@ -123,14 +123,14 @@ void checkedDictionary::know(const std::string& entry)
     }
 }
 
-bool checkedDictionary::absent(const std::string& entry, bool required)
+bool checkedDictionary::absent(const std::string& entry, bool required, const std::string& remedy)
 {
     know(entry);
     if (contents_.found(entry)) {
         return false;
     }
     if (required && readable_) {
-        complain(entry, "the entry is missing.");
+        complain(entry, "the entry is missing." + (remedy.empty() ? "" : " " + remedy));
     }
     return true;
 }
@@ -259,7 +259,8 @@ std::string checkedDictionary::oneOf(const std::string& entry, const std::vector
                                      const std::string& defaultValue)
 {
     Foam::word value;
-    if (absent(entry, defaultValue.empty()) || !read(entry, "one of " + joined(known), value)) {
+    if (absent(entry, defaultValue.empty(), "Write one of: " + joined(known) + ".")
+        || !read(entry, "one of " + joined(known), value)) {
         return defaultValue;
     }
     if (std::find(known.begin(), known.end(), value) == known.end()) {

@@ -16,7 +16,8 @@ writeFormat binary; writePrecision 16; timePrecision 8; runTimeModifiable false;
 SCHEMES = """
 ddtSchemes { default Euler; }
 gradSchemes { default Gauss linear; }
-divSchemes { default Gauss linear; div(alphaPhi,U) Gauss upwind; div(alphaPhi,k) Gauss upwind; div(alphaPhi,epsilon) Gauss upwind; }
+divSchemes { default Gauss linear; div(alphaPhi,U) Gauss upwind; div(alphaPhi,k) Gauss upwind; div(alphaPhi,epsilon) Gauss upwind;
+    div(alphaPhi,omega) Gauss upwind; }
 laplacianSchemes { default Gauss linear corrected; }
 interpolationSchemes { default linear; }
 snGradSchemes { default corrected; }
@@ -27,7 +28,7 @@ SOLUTION = """
 solvers
 {
     "(p|pFinal)" { solver PCG; preconditioner DIC; tolerance 1e-12; relTol 0; }
-    "(k|epsilon)" { solver PBiCGStab; preconditioner DILU; tolerance 1e-14; relTol 0; }
+    "(k|epsilon|omega)" { solver PBiCGStab; preconditioner DILU; tolerance 1e-14; relTol 0; }
 }
 PIMPLE { nOuterCorrectors %(outer)d; nCorrectors 2; nNonOrthogonalCorrectors 0; }
 """

@@ -30,6 +30,23 @@ class Forces(GasCase):
         found = -(rows[-1]["massCentreZ"] - rows[9]["massCentreZ"])/(rows[-1]["Time"] - rows[9]["Time"])
         self.assertAlmostEqual(found, speed, delta=2e-3*speed)
 
+    def test_a_charged_grain_drifts_at_the_speed_at_which_drag_balances_the_field_at_dt_over_tau_of_15_percent(self):
+        """Drag that is implicit without the field's force drifts by dt/tau too fast. Cells so large that the gas in them, with 1e-7
+        of the grain's momentum, stays where it is."""
+        d, rho, gas, mu, charge, field = 15e-6, 960.0, 1.149, 1.766e-5, 1e-14, 1.25e4
+        speed = 0.0
+        for _ in range(100):
+            speed = charge*field/(3*math.pi*mu*d)/(1 + 0.15*(gas*speed*d/mu)**0.687)
+        step = 0.15*rho*d*d/(18*mu)
+        box = self.box([((0.15, 0.25, 0.15), (0, 0, 0), d, rho)], walls=ALL, size=0.4, cells=4, density=gas, viscosity=mu,
+                       step=10*step, demStep=step, end=200*step)
+        box.write("constant/electrostaticProperties", "fieldMethod pairwiseSum; externalField (0 0 %r); relativePermittivity 1;" % field)
+        box.replace("constant/couplingProperties", "demCheckpoint yes;", "demCheckpoint no; walls { }")
+        box.replace("DEM/in.box", "atom_style granular", "atom_style hybrid granular charge")
+        box.replace("DEM/in.box", "vz 0", "charge %r vz 0" % charge)
+        last = box.rows()[-1]
+        self.assertAlmostEqual(last["particleMomentumZ"]/(rho*math.pi/6*d**3), speed, delta=1e-6*speed)
+
     def test_a_light_sphere_that_is_let_go_takes_half_of_the_displaced_mass_along(self):
         d, rho, gas, g = 2e-3, 500.0, 1000.0, 9.81
         for added in (0.0, 0.5, 2.0):
@@ -121,6 +138,31 @@ class Turbulence(GasCase):
         found = sum(values)/len(values)
         expected = k*(1 + (C2 - 1)*epsilon*time/k)**(-1/(C2 - 1))
         self.assertAlmostEqual(found, expected, delta=2e-3*k)
+
+    def test_k_omega_sst_knows_how_far_the_walls_are(self):
+        """One step of a gas at rest with uniform k and omega: omega falls by beta omega^2 dt, k by 0.09 k omega dt, with
+        beta = F1 0.075 + (1 - F1) 0.0828, F1 = tanh(x^4), x = min(10, max(sqrt(k)/(0.09 omega y), 500 nu/(y^2 omega)))."""
+        k, omega, nu, cells, size, step = 0.01, 100.0, 1.5e-5, 8, 0.04, 1e-5
+        box = self.turbulent(k, 0.1, walls=ALL, model="kOmegaSST", cells=cells, size=size, step=step, end=step)
+        box.field("omega", "volScalarField", "0 0 -1 0 0 0 0", "uniform %r" % omega, {name: "zeroGradient" for name in ALL})
+        for old, new in (("writeInterval 100000", "writeInterval 1"), ("writeFormat binary", "writeFormat ascii")):
+            box.replace("system/controlDict", old, new)
+        box.rows()
+        height = size/cells
+
+        def beta(cell):
+            place = [((cell//cells**axis) % cells + 0.5)*height for axis in range(3)]
+            y = min(min(x, size - x) for x in place)
+            x = min(10, max(math.sqrt(k)/(0.09*omega*y), 500*nu/(y*y*omega)))
+            return 0.0828 - 0.0078*math.tanh(x**4)
+
+        expected = [omega/(1 + beta(cell)*omega*step) for cell in range(cells**3)]
+        fall = max(omega - value for value in expected)
+        self.assertGreater(max(expected) - min(expected), 0.05*fall)
+        for found, wanted in zip(box.field_values("1e-05/omega"), expected):
+            self.assertAlmostEqual(found, wanted, delta=2e-3*fall)
+        for found, wanted in zip(box.field_values("1e-05/k"), expected):
+            self.assertAlmostEqual(found, k/(1 + 0.09*wanted*step), delta=1e-3*k*0.09*omega*step)
 
     def test_the_gas_feels_the_viscosity_of_its_turbulence(self):
         """Frozen k and epsilon give nut = 0.09 k^2/epsilon everywhere; a shear wave decays as in a laminar gas of nu + nut."""

@@ -158,7 +158,7 @@ class Gas(unittest.TestCase):
 
     def test_refuses_a_gas_without_a_void_fraction_model(self):
         self.case.replace("constant/gasProperties", "voidFraction    divided;", "")
-        self.refused("constant/gasProperties: voidFraction: the entry is missing")
+        self.refused("constant/gasProperties: voidFraction: the entry is missing. Write one of: centre, divided, smoothed.")
 
     def test_refuses_an_unknown_drag_law_by_listing_the_known(self):
         self.case.replace("constant/gasProperties", "SchillerNaumann", "Stokes")

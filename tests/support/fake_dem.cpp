@@ -28,6 +28,7 @@ void FakeDem::setGasForces(const GasForces& forces)
 {
     gas = forces;
     gasGiven.setZero(mine.size(), 3);
+    gasTakenOut.setZero();
     gasPromised = (forces.velocity - mine.velocity).colwise() * forces.drag + forces.force;
 }
 

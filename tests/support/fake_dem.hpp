@@ -34,6 +34,7 @@ public:
     void run(long steps) override;
     void setGasForces(const GasForces& forces) override;
     void gasImpulse(Points& given, double duration, Points& promised) const override;
+    Vector3 gasImpulseTakenOut() const override { return gasTakenOut; }
     std::int64_t particleCount() const override { return believedCount; }
     ChargeMovements movements() const override { return moved; }
     ContactCounts contacts() const override { return {}; }
@@ -47,9 +48,10 @@ public:
     double partnerCutoff = -1;
     bool handedOver = false;
     int fieldsSet = 0;
-    Points heldField;              ///< [V/m]
-    GasForces gas;                 ///< empty until setGasForces()
-    Points gasGiven, gasPromised;  ///< [N s], [N]
+    Points heldField;                       ///< [V/m]
+    GasForces gas;                          ///< empty until setGasForces()
+    Points gasGiven, gasPromised;           ///< [N s], [N]
+    Vector3 gasTakenOut = Vector3::Zero();  ///< until setGasForces() [N s]
 
 private:
     Box box_;

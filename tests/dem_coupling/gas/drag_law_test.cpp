@@ -170,6 +170,52 @@ TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
     }
 }
 
+TEST(DragLaw, saysWhereItHasBeenShownToHold)
+{
+    // Re of the superficial slip; of the slip itself for Schiller and Naumann's single sphere.
+    const auto holds = [](const char* name, double voidFraction, double reynolds) {
+        DragPoint at = polyethylene(voidFraction, 1);
+        at.slip = reynolds / (at.density * at.diameter / at.viscosity)
+                  / (std::string(name) == "SchillerNaumann" ? 1 : voidFraction);
+        return dragLawRange(name)(at);
+    };
+    struct Range {
+        const char* name;
+        double lowest, highest;     // void fraction
+        double voidFraction, fast;  // largest Re there
+    };
+    for (const Range& range : {Range{"WenYu", 0.4, 1, 0.7, 2e5}, Range{"SchillerNaumann", 0.98, 1, 1, 2e5},
+                               Range{"Gidaspow", 0.36, 1, 0.4, 1500}, Range{"Gidaspow", 0.36, 1, 0.9, 2e5},
+                               Range{"Beetstra", 0.4, 0.9, 0.5, 1000}, Range{"DiFelice", 0.4, 1, 0.5, 1e4},
+                               Range{"KochHill", 0.36, 1, 0.5, 120}}) {
+        EXPECT_TRUE(holds(range.name, range.lowest + 1e-9, 1)) << range.name;
+        EXPECT_FALSE(holds(range.name, range.lowest - 1e-9, 1)) << range.name;
+        EXPECT_TRUE(holds(range.name, range.highest, 1)) << range.name;
+        EXPECT_EQ(holds(range.name, 1, 1), range.highest == 1) << range.name;
+        EXPECT_TRUE(holds(range.name, range.voidFraction, range.fast * (1 - 1e-9))) << range.name;
+        EXPECT_FALSE(holds(range.name, range.voidFraction, range.fast * (1 + 1e-9))) << range.name;
+    }
+    for (const std::string& name : dragLawNames()) {
+        EXPECT_NE(dragLawRangeInWords(name).find("void fraction"), std::string::npos);
+        EXPECT_TRUE(dragLawRange(name)(polyethylene(name == "Beetstra" ? 0.9 : 1, 0))) << name << " creeps";
+    }
+    EXPECT_THROW(dragLawRange("Stokes"), std::invalid_argument);
+}
+
+TEST(SaffmanLift, holdsAtSmallReynoldsNumbersWhereShearIsMoreThanSlip)
+{
+    const auto holds = [](double ofSlip, double ofShear) {
+        // density 1, viscosity 1, diameter 1
+        return saffmanHolds(1, 1, 1, Vector3(0, 0, ofSlip), Vector3(0, ofShear, 0));
+    };
+    EXPECT_TRUE(holds(0, 0));
+    EXPECT_TRUE(holds(0.3, 0.1));
+    EXPECT_FALSE(holds(0.33, 0.1));
+    EXPECT_TRUE(holds(1, 1));
+    EXPECT_FALSE(holds(1.01, 1.1));
+    EXPECT_FALSE(holds(0.5, 1.01));
+}
+
 TEST(SaffmanLift, drawsASphereThatLagsToWhereTheGasIsFaster)
 {
     // u = rate z along x, curl u = rate along y; the sphere is slower by 0.2 m/s.

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/gas/gas_coupling.hpp"
+
+#include "tests/support/collective_throw.hpp"
+#include "tests/support/fake_dem.hpp"
+#include "tests/support/fake_gas_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace him {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+const Box box{Vector3(0, 0, 0), Vector3(0.04, 0.02, 0.02)};
+constexpr std::array<Index, 3> cells{8, 4, 4};  // cubes of 5 mm
+constexpr double cellVolume = 5e-3 * 5e-3 * 5e-3;
+constexpr double step = 1e-5;
+
+GasSettings air(VoidFractionModel model = VoidFractionModel::centre)
+{
+    GasSettings settings;
+    settings.density = 100;
+    settings.viscosity = 1e-3;
+    settings.drag = "WenYu";
+    settings.voidFraction = model;
+    settings.smoothingLength = 8e-3;
+    return settings;
+}
+
+double overRanks(double value)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+Vector3 overRanks(Vector3 value)
+{
+    MPI_Allreduce(MPI_IN_PLACE, value.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+void resize(DemParticles& particles, Index rows)
+{
+    particles.tag.resize(static_cast<std::size_t>(rows));
+    particles.type.assign(static_cast<std::size_t>(rows), 1);
+    particles.position.conservativeResize(rows, 3);
+    particles.velocity.conservativeResize(rows, 3);
+    particles.charge.setZero(rows);
+    particles.radius.setConstant(rows, 2e-3);
+    particles.mass.setConstant(rows, 1000 * 4 * pi / 3 * std::pow(2e-3, 3));
+}
+
+/// Spheres of 4 mm that each rank owns a part of, wherever the cells are.
+DemParticles spheres(int count)
+{
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0, 1);
+    DemParticles mine;
+    for (int n = 0; n < count; ++n) {
+        Vector3 place;
+        Vector3 velocity;
+        for (int axis = 0; axis < 3; ++axis) {
+            place[axis] = box.size()[axis] * share(random);
+            velocity[axis] = share(random) - 0.5;
+        }
+        if (n % ranks == rank) {
+            const Index row = mine.size();
+            resize(mine, row + 1);
+            mine.tag.back() = n + 1;
+            mine.position.row(row) = place.transpose().array();
+            mine.velocity.row(row) = velocity.transpose().array();
+        }
+    }
+    resize(mine, mine.size());
+    return mine;
+}
+
+/// One sphere in the middle of the cell at (12.5, 7.5, 7.5) mm, owned by the last rank.
+DemParticles oneSphere()
+{
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    DemParticles mine;
+    resize(mine, rank == ranks - 1 ? 1 : 0);
+    for (Index row = 0; row < mine.size(); ++row) {
+        mine.tag = {1};
+        mine.position.row(row) << 12.5e-3, 7.5e-3, 7.5e-3;
+        mine.velocity.row(row) << 0.1, 0, -0.2;
+    }
+    return mine;
+}
+
+/// u = shear (y - y of the cell's centre) along x.
+class Shear : public VelocityProfile {
+public:
+    explicit Shear(const CellMesh& mesh) : mesh_(mesh) {}
+    void update(const Points&) override { ++updates; }
+    Vector3 deviation(Index cell, const Vector3& point) const override
+    {
+        return rate * (point - mesh_.cellCentre(cell))[1] * Vector3::UnitX();
+    }
+    double rate = 300;
+    int updates = 0;
+
+private:
+    const CellMesh& mesh_;
+};
+
+/// A gas whose cells know nothing of one another: each has a mass and a velocity that its drag changes, implicitly.
+class LooseGas {
+public:
+    LooseGas(const FakeGasMesh& mesh, const GasSettings& settings) : settings_(settings)
+    {
+        result.velocity.setZero(mesh.cellCount(), 3);
+        result.velocity.col(0) = 1;
+        result.pressureForce.setZero(mesh.cellCount(), 3);
+        perVolume_.setConstant(mesh.cellCount(), settings.density);
+    }
+
+    void solve(const GasSources& sources, double duration)
+    {
+        const Points before = result.velocity;
+        for (int axis = 0; axis < 3; ++axis) {
+            result.velocity.col(axis) =
+                (perVolume_ * before.col(axis) + duration * sources.dragMomentum.col(axis) - sources.owed.col(axis))
+                / (perVolume_ + duration * sources.drag);
+        }
+        const Points change = (before - result.velocity).colwise() * perVolume_;
+        result.given = overRanks(Vector3(cellVolume * change.colwise().sum().matrix().transpose()));
+    }
+
+    Vector3 momentum() const
+    {
+        const Points all = result.velocity.colwise() * perVolume_;
+        return overRanks(Vector3(cellVolume * all.colwise().sum().matrix().transpose()));
+    }
+
+    GasResult result;
+
+private:
+    GasSettings settings_;
+    Scalars perVolume_;
+};
+
+Vector3 momentum(const DemParticles& particles)
+{
+    const Points all = particles.velocity.colwise() * particles.mass;
+    return overRanks(Vector3(all.colwise().sum().matrix().transpose()));
+}
+
+TEST(GasCoupling, laysASphereOnItsCellAndDragByTheLaw)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    for (const PressureModel pressure : {PressureModel::modelA, PressureModel::modelB}) {
+        GasSettings settings = air();
+        settings.pressure = pressure;
+        FakeDem dem(oneSphere(), box, {false, false, false}, step, MPI_COMM_WORLD);
+        GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+        LooseGas gas(mesh, settings);
+        coupling.collect(dem.mine, gas.result.velocity);
+
+        const double volume = 4 * pi / 3 * 8e-9;
+        const double alpha = 1 - volume / cellVolume;
+        const double slip = std::sqrt(0.9 * 0.9 + 0.2 * 0.2);
+        double beta = wenYuDrag({alpha, slip, 4e-3, 100, 1e-3});
+        beta = pressure == PressureModel::modelB ? beta / alpha : beta;
+        const Index cell = mesh.findCell(Vector3(12.5e-3, 7.5e-3, 7.5e-3));
+        const GasSources& sources = coupling.sources();
+        for (Index other = 0; other < mesh.cellCount(); ++other) {
+            EXPECT_NEAR(sources.voidFraction[other], other == cell ? alpha : 1, 1e-15);
+            EXPECT_NEAR(sources.drag[other], other == cell ? beta / cellVolume : 0, 1e-13 * beta / cellVolume);
+        }
+        if (cell >= 0) {
+            EXPECT_NEAR(sources.dragMomentum(cell, 0), 0.1 * beta / cellVolume, 1e-13 * beta / cellVolume);
+            EXPECT_NEAR(sources.dragMomentum(cell, 2), -0.2 * beta / cellVolume, 1e-13 * beta / cellVolume);
+        }
+        EXPECT_NEAR(coupling.summary().solidVolume, volume, 1e-15 * volume);
+        EXPECT_NEAR(coupling.summary().smallestVoidFraction, alpha, 1e-15);
+    }
+}
+
+TEST(GasCoupling, countsParticlesBeyondWhatDragAndLiftHaveBeenShownFor)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    FakeDem dem(spheres(12), box, {false, false, false}, step, MPI_COMM_WORLD);
+    GasSettings settings = air(VoidFractionModel::smoothed);
+    settings.drag = "KochHill";
+    settings.saffmanLift = true;
+    GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+    LooseGas gas(mesh, settings);
+    gas.result.acceleration.setZero(mesh.cellCount(), 3);
+    gas.result.vorticity.setZero(mesh.cellCount(), 3);
+    coupling.collect(dem.mine, gas.result.velocity);
+    coupling.handBack(dem.mine, gas.result, 10 * step);
+    EXPECT_EQ(coupling.summary().beyondDragLaw, 12);  // Re 200 to 700
+    EXPECT_EQ(coupling.summary().beyondLift, 12);
+    gas.result.velocity *= 1e-3;
+    gas.result.vorticity.setConstant(0.1);
+    dem.mine.velocity.setZero();
+    coupling.collect(dem.mine, gas.result.velocity);
+    coupling.handBack(dem.mine, gas.result, 10 * step);
+    EXPECT_EQ(coupling.summary().beyondDragLaw, 0);
+    EXPECT_EQ(coupling.summary().beyondLift, 0);
+}
+
+TEST(GasCoupling, keepsTheSolidVolumeOfEveryModel)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    for (const VoidFractionModel model :
+         {VoidFractionModel::centre, VoidFractionModel::divided, VoidFractionModel::smoothed}) {
+        FakeDem dem(spheres(30), box, {false, false, false}, step, MPI_COMM_WORLD);
+        GasSettings settings = air(model);
+        settings.smallestVoidFraction = 1e-3;
+        GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+        coupling.begin(dem.mine);
+        const double volume = 30 * 4 * pi / 3 * 8e-9;
+        EXPECT_NEAR(coupling.summary().solidVolume, volume, 1e-13 * volume);
+    }
+}
+
+TEST(GasCoupling, countsCellsBelowTheSmallestVoidFractionAndWhatTheyHoldMore)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    FakeDem dem(oneSphere(), box, {false, false, false}, step, MPI_COMM_WORLD);
+    GasSettings settings = air();
+    settings.smallestVoidFraction = 0.9;
+    GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+    coupling.begin(dem.mine);
+    EXPECT_EQ(coupling.summary().boundedCells, 1);
+    EXPECT_NEAR(coupling.summary().boundedVolume, 4 * pi / 3 * 8e-9 - 0.1 * cellVolume, 1e-15 * cellVolume);
+    EXPECT_NEAR(overRanks((1 - coupling.sources().voidFraction).sum()), 0.1, 1e-14);
+}
+
+TEST(GasCoupling, refusesMoreSolidThanACellHolds)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    DemParticles large = oneSphere();
+    large.radius *= 2;
+    FakeDem dem(large, box, {false, false, false}, step, MPI_COMM_WORLD);
+    GasCoupling coupling(dem, mesh, air(), MPI_COMM_WORLD);
+    expectContains(textThrownOnAllRanks(MPI_COMM_WORLD, [&] { coupling.begin(dem.mine); }),
+                   "a cell of the gas holds 2.14");
+}
+
+TEST(GasCoupling, namesTheFirstParticleOutsideTheMeshOnAllRanksUnlessItMayBeThere)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    DemParticles mine = spheres(12);
+    for (Index row = 0; row < mine.size(); ++row) {
+        if (mine.tag[static_cast<std::size_t>(row)] >= 6 && mine.tag[static_cast<std::size_t>(row)] <= 8) {
+            mine.position.row(row) << 0.05, 0.01, 0.01;
+        }
+    }
+    FakeDem dem(mine, box, {false, false, false}, step, MPI_COMM_WORLD);
+    GasSettings settings = air();
+    settings.smallestVoidFraction = 1e-3;
+    {
+        GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+        const std::string text = textThrownOnAllRanks(MPI_COMM_WORLD, [&] { coupling.begin(dem.mine); });
+        expectContains(text,
+                       "3 particle(s) are outside the mesh of the gas, among them particle 6 at (0.05 0.01 0.01) m");
+    }
+    settings.particlesOutsideAllowed = true;
+    GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+    coupling.begin(dem.mine);
+    EXPECT_EQ(coupling.summary().particlesOutside, 3);
+}
+
+TEST(GasCoupling, handsBackTheVelocityOfTheCellPressureAndBuoyancy)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    GasSettings settings = air();
+    settings.gravity = Vector3(0, 0, -9.81);
+    FakeDem dem(oneSphere(), box, {false, false, false}, step, MPI_COMM_WORLD);
+    GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+    LooseGas gas(mesh, settings);
+    gas.result.pressureForce.col(1) = 40;
+    coupling.collect(dem.mine, gas.result.velocity);
+    gas.result.velocity.col(0) = 3;
+    coupling.handBack(dem.mine, gas.result, 10 * step);
+    const double volume = 4 * pi / 3 * 8e-9;
+    for (Index row = 0; row < dem.mine.size(); ++row) {
+        EXPECT_EQ(dem.gas.velocity(row, 0), 3);
+        EXPECT_NEAR(dem.gas.force(row, 1), 40 * volume, 1e-13 * volume);
+        EXPECT_NEAR(dem.gas.buoyancy(row, 2), 100 * 9.81 * volume, 1e-11 * volume);
+        EXPECT_EQ(dem.gas.unpaid.rows(), 0);
+    }
+}
+
+TEST(GasCoupling, givesAParticleTheVelocityOfItsPlaceAndTheGasTheSameForceByEveryModel)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    for (const VoidFractionModel model : {VoidFractionModel::centre, VoidFractionModel::divided}) {
+        GasSettings settings = air(model);
+        DemParticles mine = oneSphere();
+        mine.position.col(1) -= 1e-3;
+        FakeDem dem(mine, box, {false, false, false}, step, MPI_COMM_WORLD);
+        Shear shear(mesh);
+        GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD, &shear);
+        LooseGas gas(mesh, settings);
+        coupling.collect(dem.mine, gas.result.velocity);
+        EXPECT_EQ(shear.updates, 1);
+        gas.solve(coupling.sources(), 10 * step);
+        coupling.handBack(dem.mine, gas.result, 10 * step);
+        if (model == VoidFractionModel::centre) {
+            const Index cell = mesh.findCell(Vector3(12.5e-3, 6.5e-3, 7.5e-3));
+            const double ofCell = overRanks(cell >= 0 ? gas.result.velocity(cell, 0) : 0);
+            for (Index row = 0; row < dem.mine.size(); ++row) {
+                EXPECT_NEAR(dem.gas.velocity(row, 0), ofCell - 0.3, 1e-14);
+            }
+        }
+        const Vector3 given = gas.result.given;
+        EXPECT_NEAR((given - coupling.books().promised).norm(), 0, 1e-12 * given.norm());
+        EXPECT_LT(coupling.books().mismatch(), 1e-12);
+    }
+}
+
+class Books : public testing::TestWithParam<VoidFractionModel> {};
+
+TEST_P(Books, keepTheMomentumOfGasParticlesAndWhatWasTakenOut)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    GasSettings settings = air(GetParam());
+    settings.smallestVoidFraction = 1e-3;
+    FakeDem dem(spheres(12), box, {true, true, true}, step, MPI_COMM_WORLD);
+    dem.setField(dem.mine, Points::Zero(dem.mine.size(), 3), Points());
+    dem.handOver();
+    Shear shear(mesh);
+    GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD, &shear);
+    LooseGas gas(mesh, settings);
+    coupling.begin(dem.mine);
+    const Vector3 start = gas.momentum() + momentum(dem.mine);
+    Vector3 left = Vector3::Zero();
+    int round = 0;
+    dem.duringRun = [&] {
+        // Every 8th gas step the last particle of the rank that has most goes, with its momentum and what the gas gave it.
+        double gone[3] = {0, 0, 0};
+        Index most = dem.mine.size();
+        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT64_T, MPI_MAX, MPI_COMM_WORLD);
+        if (++round % 8 == 0 && most > 1 && dem.mine.size() == most) {
+            const Index last = most - 1;
+            for (int axis = 0; axis < 3; ++axis) {
+                gone[axis] = dem.mine.mass[last] * dem.mine.velocity(last, axis);
+            }
+            if (dem.gasGiven.rows() == most) {
+                dem.gasTakenOut += dem.gasGiven.row(last).matrix().transpose();
+                dem.gasGiven.conservativeResize(last, 3);
+                dem.gasPromised.conservativeResize(last, 3);
+            }
+            resize(dem.mine, last);
+            dem.heldField.setZero(last, 3);
+        }
+        left += overRanks(Vector3(gone));
+    };
+    double worst = 0;
+    for (int n = 0; n < 60; ++n) {
+        dem.run(10);
+        coupling.collect(dem.mine, gas.result.velocity);
+        gas.solve(coupling.sources(), 10 * step);
+        coupling.handBack(dem.mine, gas.result, 10 * step);
+        const MomentumBooks& books = coupling.books();
+        const Vector3 total = gas.momentum() + momentum(dem.mine) + left + books.given - books.got;
+        EXPECT_LT((total - start).norm(), 1e-12 * start.norm()) << "step " << n;
+        EXPECT_LT((books.given - books.got - books.ahead).norm(), 1e-12 * start.norm());
+        worst = std::max(worst, (books.ahead - books.promised).norm());
+    }
+    EXPECT_GT(left.norm(), 1e-3 * start.norm());
+    // The gas is ahead by no more than its last solve promised; where shares of faces and cells are one, to rounding.
+    EXPECT_LT(worst, 1e-12 * start.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryModel, Books,
+                         testing::Values(VoidFractionModel::centre, VoidFractionModel::divided,
+                                         VoidFractionModel::smoothed));
+
+}  // namespace
+}  // namespace him

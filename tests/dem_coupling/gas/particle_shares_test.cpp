@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_coupling/gas/particle_shares.hpp"
+
+#include "tests/support/fake_gas_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace him {
+namespace {
+
+const Box box{Vector3(-1, 0, 2), Vector3(3, 2, 4)};
+constexpr std::array<Index, 3> cells{8, 4, 4};  // cubes of 0.5
+constexpr std::array<bool, 3> noPeriods{false, false, false};
+
+/// Spheres of which each rank owns a part, wherever the cells are. Their sub-points stay in the box if `clear`.
+DemParticles spheres(int count, bool clear)
+{
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> share(0, 1);
+    DemParticles mine;
+    std::vector<Vector3> places;
+    std::vector<double> radii;
+    for (int n = 0; n < count; ++n) {
+        const double radius = 0.1 + 0.2 * share(random);
+        const double margin = clear ? radius : 0;
+        Vector3 place;
+        for (int axis = 0; axis < 3; ++axis) {
+            place[axis] = box.lower[axis] + margin + share(random) * (box.size()[axis] - 2 * margin);
+        }
+        if (n % ranks == rank) {
+            mine.tag.push_back(n + 1);
+            places.push_back(place);
+            radii.push_back(radius);
+        }
+    }
+    mine.position.resize(static_cast<Index>(places.size()), 3);
+    mine.radius.resize(mine.position.rows());
+    for (std::size_t row = 0; row < places.size(); ++row) {
+        mine.position.row(static_cast<Index>(row)) = places[row].transpose().array();
+        mine.radius[static_cast<Index>(row)] = radii[row];
+    }
+    return mine;
+}
+
+double overRanks(double value)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+class Shares : public testing::TestWithParam<bool> {
+protected:
+    FakeGasMesh mesh{box, cells, MPI_COMM_WORLD};
+    ParticleShares shares{mesh, MPI_COMM_WORLD, box, noPeriods, GetParam()};
+};
+
+TEST_P(Shares, keepTheSumOfWhatTheyLayOnCellsBesideWallsToo)
+{
+    const DemParticles particles = spheres(200, false);
+    shares.locate(particles);
+    EXPECT_EQ(overRanks(static_cast<double>(shares.rowsOutside())), 0);
+    Scalars laid;
+    shares.deposit(particles.radius.cube(), laid);
+    EXPECT_GE(laid.size() > 0 ? laid.minCoeff() : 0, 0);
+    const double total = overRanks(particles.radius.cube().sum());
+    EXPECT_NEAR(overRanks(laid.sum()), total, 1e-14 * total);
+}
+
+TEST_P(Shares, gatherWithTheWeightsByWhichTheyLay)
+{
+    // sum over rows of a gather(b) = sum over cells of deposit(a) b.
+    const DemParticles particles = spheres(200, false);
+    shares.locate(particles);
+    Scalars laid;
+    shares.deposit(particles.radius, laid);
+    const auto valueOf = [this](Index cell) { return mesh.cellCentre(cell).array().cube().matrix().eval(); };
+    double ofCells = 0;
+    for (Index cell = 0; cell < laid.size(); ++cell) {
+        ofCells += laid[cell] * valueOf(cell)[2];
+    }
+    Points gathered;
+    shares.gather(valueOf, gathered);
+    const double ofRows = overRanks((particles.radius * gathered.col(2)).sum());
+    EXPECT_NEAR(overRanks(ofCells), ofRows, 1e-13 * ofRows);
+}
+
+TEST_P(Shares, findALinearFieldAtTheCentreOfEveryParticle)
+{
+    const DemParticles particles = spheres(200, true);
+    shares.locate(particles);
+    Points found;
+    shares.gather(
+        particles,
+        [this](Index cell, const Vector3& point) {
+            EXPECT_EQ(mesh.findCell(point), cell) << "a point was not asked for in its cell";
+            return Vector3(1 + point[0] - 3 * point[1], point[2], 7);
+        },
+        found);
+    for (Index row = 0; row < particles.size(); ++row) {
+        const auto at = particles.position.row(row);
+        EXPECT_NEAR(found(row, 0), 1 + at[0] - 3 * at[1], 1e-13);
+        EXPECT_NEAR(found(row, 1), at[2], 1e-13);
+        EXPECT_NEAR(found(row, 2), 7, 1e-13);
+    }
+}
+
+TEST_P(Shares, seekStrayParticlesOnePeriodAwayAndSayThePointsThere)
+{
+    ParticleShares periodic(mesh, MPI_COMM_WORLD, box, {true, false, false}, GetParam());
+    DemParticles particles = spheres(50, true);
+    const Scalars inside = particles.position.col(0);
+    particles.position.col(0) += box.size()[0];
+    periodic.locate(particles);
+    EXPECT_EQ(periodic.rowsOutside(), 0);
+    Points found;
+    periodic.gather(
+        particles, [](Index, const Vector3& point) { return point; }, found);
+    for (Index row = 0; row < particles.size(); ++row) {
+        EXPECT_NEAR(found(row, 0), inside[row], 1e-13);
+    }
+}
+
+TEST_P(Shares, giveNothingOfParticlesOutside)
+{
+    DemParticles particles = spheres(8, true);
+    particles.position.col(1) += 3;
+    shares.locate(particles);
+    EXPECT_EQ(shares.rowsOutside(), particles.size());
+    Scalars laid;
+    shares.deposit(particles.radius, laid);
+    EXPECT_EQ(laid.abs().sum(), 0);
+    Points found;
+    shares.gather([](Index) { return Vector3(1, 2, 3); }, found);
+    EXPECT_EQ(found.abs().sum(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(ByCentreAndBySubPoints, Shares, testing::Bool());
+
+TEST(SubPoints, haveTheSecondMomentOfTheSphere)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    ParticleShares shares(mesh, MPI_COMM_WORLD, box, noPeriods, true);
+    const DemParticles particles = spheres(40, true);
+    shares.locate(particles);
+    Points squares;
+    shares.gather(
+        particles, [](Index, const Vector3& point) { return point.cwiseProduct(point).eval(); }, squares);
+    for (Index row = 0; row < particles.size(); ++row) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double expected = std::pow(particles.position(row, axis), 2) + std::pow(particles.radius[row], 2) / 5;
+            EXPECT_NEAR(squares(row, axis), expected, 1e-13 * expected);
+        }
+    }
+}
+
+TEST(SubPoints, beyondAWallGiveTheirShareToTheOthers)
+{
+    // A centre 0.1 radius from the wall: one point on the axis and four on diagonals of 15 are beyond it.
+    const FakeGasMesh mesh(box, {8, 1, 1}, MPI_COMM_WORLD);
+    ParticleShares shares(mesh, MPI_COMM_WORLD, box, noPeriods, true);
+    DemParticles particles = spheres(1, true);
+    for (Index row = 0; row < particles.size(); ++row) {
+        particles.radius[row] = 0.4;
+        particles.position.row(row) << 1.25, 0.04, 3;
+    }
+    shares.locate(particles);
+    Points inWallsDirection;
+    shares.gather(
+        particles, [](Index, const Vector3& point) { return point; }, inWallsDirection);
+    for (Index row = 0; row < particles.size(); ++row) {
+        // What remains: centre, five on the axes, four on diagonals at +0.802/sqrt(3).
+        const double distance = 0.4 * std::sqrt(9.0 / 14);
+        EXPECT_NEAR(inWallsDirection(row, 1), 0.04 + distance * (1 + 4 / std::sqrt(3.0)) / 10, 1e-13);
+    }
+}
+
+}  // namespace
+}  // namespace him
