@@ -8,7 +8,7 @@ import unittest
 
 from round_walls_test import RADIUS, o_grid
 from tiny_case import CaseTests, TinyCase
-from wall_charges_test import with_plate
+from wall_charge_carriers_test import with_plate
 
 COUPLING = "constant/couplingProperties"
 CYLINDER = "fix floor all wall/gran model hertz tangential history cohesion charge primitive type 2 zcylinder %r %r 0.\n"
