@@ -71,10 +71,10 @@ private:
     struct NearRun {
         std::int32_t panel, run;
     };
-    std::vector<NearRun> found_;
-    std::vector<std::int32_t> nearRuns_, firstNearRun_;  ///< those near each panel
-    FieldAtPlaces nearPlaces_;                           ///< some targets near a panel
-    std::array<Index, FieldAtPlaces::most> nearTargets_;
+    std::vector<NearRun> found_;                          ///< as they were found, run by run
+    std::vector<std::int32_t> nearRuns_, firstNearRun_;   ///< runs near each panel, and where each panel's begin
+    FieldAtPlaces nearPlaces_;                            ///< some targets near a panel
+    std::array<Index, FieldAtPlaces::most> nearTargets_;  ///< which these are
 };
 
 }  // namespace him
