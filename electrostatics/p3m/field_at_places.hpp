@@ -8,7 +8,8 @@
 
 namespace him {
 
-/// Some places and what sources do there, per unit of the factor that they are given (with charge/(4 pi eps) [V m]: V/m and V), side by side, so that a loop over them fills the registers of the processor.
+/// Some places and what sources do there, side by side, so that a loop over them fills the registers of the processor. Per
+/// unit of the factor that the sources are given; with charge/(4 pi eps) [V m] for it they are V/m and V.
 struct FieldAtPlaces {
     static constexpr Index most = 64;
     /// Loops run over whole groups of this many places. Every place is then computed by the same instructions, wherever it stands.
