@@ -44,17 +44,19 @@ def ergun(speed, voids):
 
 def inside(model, speed_at):
     """Deviations from Ergun's equation between two heights inside the packed bed, two layers away from its edges: there the gas
-    knows the porosity; at an edge it sees the mean of two layers. One for each of thirteen instants; spheres that shift make single ones fall short."""
+    knows the porosity; at an edge it sees the mean of two layers. Thirteen of them: means of the pressure over the 0.05 s about
+    each written time, whose porosity they use. Instants would not do: spheres that shift take momentum from the gas for a moment."""
+    probed = np.loadtxt(f"runs/{model}/postProcessing/insidePressure/0/p")
+    times, drops = probed[:, 0], probed[:, 1] - probed[:, -1]       # the lowest and the highest probe
+    low, high = INSIDE
+    weights = np.ones(high - low + 1)
+    weights[[0, -1]] = 0.5                                          # from centre to centre
     deviations = []
     for time in np.arange(0.6, 1.21, 0.05):
-        pressure, voids = layers(model, "p", time), layers(model, "voidFraction", time)
-        low, high = INSIDE
-        drop = pressure[low] - pressure[high]
-        between = np.concatenate([voids[low:high + 1]])
-        weights = np.ones(high - low + 1)
-        weights[[0, -1]] = 0.5                  # from centre to centre
-        expected = sum(w*ergun(speed_at(time), np.array([v])) for w, v in zip(weights, between))
-        deviations.append(drop/expected - 1)
+        about = np.abs(times - time) <= 0.025
+        voids = layers(model, "voidFraction", time)[low:high + 1]
+        expected = np.mean([sum(w*ergun(speed, np.array([v])) for w, v in zip(weights, voids)) for speed in speed_at(times[about])])
+        deviations.append(np.mean(drops[about])/expected - 1)
     return np.array(deviations)
 
 
@@ -101,12 +103,11 @@ def main():
     ok = True
     weight = weight_of("modelA")
     print(f"weight/area {weight:.2f} Pa")
-    print("model   mean porosity  inside the bed over Ergun: mean, RMS, worst  whole bed over Ergun  plateau over weight  u_mf [m/s]  by Ergun")
+    print("model   mean porosity  inside the bed over Ergun: mean, worst  whole bed over Ergun  plateau over weight  u_mf [m/s]  by Ergun")
     for model, m in found.items():
-        rms = np.sqrt(np.mean(m["inside"]**2))
         good = np.max(np.abs(m["inside"])) <= 0.02 and abs(m["plateau"]) <= 0.02 and abs(m["found"]/m["predicted"] - 1) <= 0.1
         ok = ok and good
-        print(f"{model}  {m['mean']:13.3f}  {100*np.mean(m['inside']):+25.2f}, {100*rms:.2f}, {100*max(m['inside'], key=abs):+.2f} %  {100*m['whole']:+18.2f} %  {100*m['plateau']:+17.2f} %"
+        print(f"{model}  {m['mean']:13.3f}  {100*np.mean(m['inside']):+25.2f}, {100*max(m['inside'], key=abs):+.2f} %  {100*m['whole']:+18.2f} %  {100*m['plateau']:+17.2f} %"
               f"  {m['found']:10.4f}  {m['predicted']:8.4f}  {'ok' if good else 'FAILED'}")
     a, b = found["modelA"]["found"], found["modelB"]["found"]
     same = abs(a/b - 1) <= 0.05

@@ -112,6 +112,19 @@ std::string dragLawRangeInWords(const std::string& name)
     return entryOf(name).range;
 }
 
+std::vector<std::string> dragLawsThatHold(double voidFraction, double reynolds)
+{
+    DragPoint at{voidFraction, 1, 1, 1, 1};
+    at.slip = reynolds / superficialReynolds(at);
+    std::vector<std::string> names;
+    for (const Entry& law : laws) {
+        if (law.holds(at)) {
+            names.emplace_back(law.name);
+        }
+    }
+    return names;
+}
+
 double superficialReynolds(const DragPoint& at)
 {
     return at.voidFraction * at.density * at.slip * at.diameter / at.viscosity;

@@ -37,6 +37,8 @@ using DragLawRange = bool (*)(const DragPoint&);
 DragLawRange dragLawRange(const std::string& name);
 /// The same in words, for the log.
 std::string dragLawRangeInWords(const std::string& name);
+/// Names of the laws that have been shown to hold at a void fraction [-] and a superficial Reynolds number [-].
+std::vector<std::string> dragLawsThatHold(double voidFraction, double reynolds);
 
 /// Reynolds number of the superficial slip, voidFraction density slip diameter / viscosity [-].
 double superficialReynolds(const DragPoint& at);

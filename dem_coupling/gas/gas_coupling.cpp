@@ -193,6 +193,8 @@ void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
 
     forces_.resize(particles.size(), settings_.needsGasMotion());
     beyondDragLaw_ = 0;
+    voidFractionBeyond_ = 1;
+    reynoldsBeyond_ = 0;
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
@@ -201,7 +203,11 @@ void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
         const DragPoint point{voidFractionAtRow_[row], slip, 2 * particles.radius[row], settings_.density,
                               settings_.viscosity};
         const double beta = law_(point);
-        beyondDragLaw_ += !lawHolds_(point);
+        if (!lawHolds_(point)) {
+            ++beyondDragLaw_;
+            voidFractionBeyond_ = std::min(voidFractionBeyond_, point.voidFraction);
+            reynoldsBeyond_ = std::max(reynoldsBeyond_, superficialReynolds(point));
+        }
         forces_.drag[row] = settings_.pressure == PressureModel::modelB ? dragOfModelB(beta, point.voidFraction) : beta;
     }
     toCells(forces_.drag, sources_.drag);
@@ -309,6 +315,12 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
     summary_.force = Vector3(sums[0], sums[1], sums[2]);
     summary_.beyondDragLaw = static_cast<std::int64_t>(sums[3]);
     summary_.beyondLift = static_cast<std::int64_t>(sums[4]);
+    if (summary_.beyondDragLaw > 0) {
+        std::array<double, 2> largest{-voidFractionBeyond_, reynoldsBeyond_};
+        MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, communicator_);
+        summary_.voidFractionBeyondDragLaw = -largest[0];
+        summary_.reynoldsBeyondDragLaw = largest[1];
+    }
     books_.given += result.given;
     books_.ahead += result.given;
     books_.promised = duration * summary_.force;

@@ -53,7 +53,9 @@ struct GasSummary {
     Vector3 momentum = Vector3::Zero();    ///< of the particles, at the end of the step [N s]
     Vector3 force = Vector3::Zero();  ///< of drag and pressure gradient on the particles, at the end of the step [N]
     std::int64_t beyondDragLaw = 0;   ///< particles where the drag law has not been shown to hold, see DragLawRange
-    std::int64_t beyondLift = 0;      ///< the same of the lift, see saffmanHolds()
+    double voidFractionBeyondDragLaw = 1;  ///< the smallest of those particles, which need not have
+    double reynoldsBeyondDragLaw = 0;      ///< the largest superficial Reynolds number of them
+    std::int64_t beyondLift = 0;           ///< the same of the lift, see saffmanHolds()
 };
 
 /// The exchange of momentum between gas and particles, on any mesh and DEM. Holds no gas equation.
@@ -121,6 +123,7 @@ private:
     MomentumBooks books_;
     double lastDuration_ = 0;                   ///< [s]
     Index beyondDragLaw_ = 0, beyondLift_ = 0;  ///< of this rank
+    double voidFractionBeyond_ = 1, reynoldsBeyond_ = 0;
     Scalars volume_, cell_, voidFractionAtRow_;
     Points given_, promised_, smoothed_, gathered_, velocityAtRow_, vorticityAtRow_;
     Points deviation_;  ///< of the gas velocity at each row from that of its cells [m/s]; no rows without a profile

@@ -49,6 +49,17 @@ void append(std::ostream& line, const Vector3& vector)
     line << ' ' << vector[0] << ' ' << vector[1] << ' ' << vector[2];
 }
 
+/// What a warning says of a place that the chosen drag law has not been shown for.
+std::string lawsThatHold(double voidFraction, double reynolds)
+{
+    std::string names;
+    for (const std::string& name : dragLawsThatHold(voidFraction, reynolds)) {
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    return names.empty() ? ", where no law has; a run with another law shows how much hangs on it"
+                         : ", where these have: " + names;
+}
+
 }  // namespace
 
 gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, DemPort& dem, PhaseTimes& times,
@@ -213,11 +224,14 @@ std::string gasPhase::describe() const
     if (summary.beyondDragLaw > 0) {
         line += "\n    Warning: " + std::to_string(summary.beyondDragLaw) + " particle(s) where drag "
                 + properties_.exchange.drag + " has not been shown to hold ("
-                + dragLawRangeInWords(properties_.exchange.drag) + ")";
+                + dragLawRangeInWords(properties_.exchange.drag) + "). They reach void fraction "
+                + shown(summary.voidFractionBeyondDragLaw, 3) + " and Re " + shown(summary.reynoldsBeyondDragLaw, 3)
+                + lawsThatHold(summary.voidFractionBeyondDragLaw, summary.reynoldsBeyondDragLaw);
     }
     if (summary.beyondLift > 0) {
         line += "\n    Warning: " + std::to_string(summary.beyondLift)
-                + " particle(s) where Saffman's lift does not hold (" + saffmanRangeInWords + ")";
+                + " particle(s) where Saffman's lift does not hold (" + saffmanRangeInWords
+                + "). A run without `lift` shows how much hangs on it";
     }
     return line;
 }

@@ -170,6 +170,15 @@ TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
     }
 }
 
+TEST(DragLaw, namesThoseThatHoldWhereAnotherDoesNot)
+{
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(dragLawsThatHold(0.38, 100), (Names{"Gidaspow", "KochHill"}));
+    EXPECT_EQ(dragLawsThatHold(0.95, 5000), (Names{"WenYu", "Gidaspow", "DiFelice"}));
+    EXPECT_EQ(dragLawsThatHold(0.99, 0), (Names{"WenYu", "SchillerNaumann", "Gidaspow", "DiFelice", "KochHill"}));
+    EXPECT_TRUE(dragLawsThatHold(0.3, 10).empty());
+}
+
 TEST(DragLaw, saysWhereItHasBeenShownToHold)
 {
     // Re of the superficial slip; of the slip itself for Schiller and Naumann's single sphere.

@@ -212,6 +212,21 @@ TEST(GasCoupling, countsParticlesBeyondWhatDragAndLiftHaveBeenShownFor)
     EXPECT_EQ(coupling.summary().beyondLift, 0);
 }
 
+TEST(GasCoupling, saysOnAllRanksHowFarBeyondTheDragLawParticlesAre)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    FakeDem dem(oneSphere(), box, {false, false, false}, step, MPI_COMM_WORLD);
+    GasSettings settings = air();
+    settings.drag = "KochHill";
+    GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD);
+    LooseGas gas(mesh, settings);
+    coupling.collect(dem.mine, gas.result.velocity);
+    coupling.handBack(dem.mine, gas.result, 10 * step);
+    const double alpha = 1 - 4 * pi / 3 * 8e-9 / cellVolume;
+    EXPECT_NEAR(coupling.summary().voidFractionBeyondDragLaw, alpha, 1e-14);
+    EXPECT_NEAR(coupling.summary().reynoldsBeyondDragLaw, alpha * 100 * std::hypot(0.9, 0.2) * 4e-3 / 1e-3, 1e-10);
+}
+
 TEST(GasCoupling, keepsTheSolidVolumeOfEveryModel)
 {
     const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
