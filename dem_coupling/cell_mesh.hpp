@@ -15,6 +15,8 @@ public:
     virtual double largestCellDiagonal() const = 0;  ///< over all ranks [m]; not collective
     /// Local cell that holds the point, or -1. Not collective.
     virtual Index findCell(const Vector3& point) const = 0;
+    /// Whether a quick look shows that findCell() would name this cell; false says nothing. Not collective.
+    virtual bool surelyHolds(Index /*cell*/, const Vector3& /*point*/) const { return false; }
     virtual Vector3 cellCentre(Index cell) const = 0;  ///< [m]
 };
 

@@ -9,6 +9,7 @@
 #include "electrostatics/contact_charging.hpp"
 #include "electrostatics/parameters/charging_efficiency.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct HeldField {
     static constexpr int width = 10;
     static constexpr int position = 3;     ///< first of its three columns
     static constexpr int ownResponse = 7;  ///< first of its three columns
-    const double* const* rows = nullptr;  ///< null when the scene has no field
+    const double* first = nullptr;         ///< of row 0, the others follow; null when the scene has no field
+
+    const double* row(int i) const { return first + static_cast<std::ptrdiff_t>(width) * i; }
 };
 
 /// The DEM's arrays of one step. Rows [0, local) are owned, [local, all) are ghosts.
@@ -78,8 +81,7 @@ public:
 
     /// Second half: computes every contact's charge, then applies all of it to the owned rows. With a held field the pairs
     /// must have kept their normals, with frozen charges what is within the contact.
-    void move(const DemRows& rows, const GrowingPairs& pairs,
-              const std::vector<GrowingWallContact>& wallContacts);
+    void move(const DemRows& rows, const GrowingPairs& pairs, const std::vector<GrowingWallContact>& wallContacts);
 
     /// Charge given to each wall by this rank [C].
     std::vector<CompensatedSum>& toWall() { return toWall_; }

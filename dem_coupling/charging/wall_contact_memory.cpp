@@ -27,11 +27,36 @@ WallContactMemory::WallContactMemory(double curvature) : cosCurvature_(std::cos(
     }
 }
 
+WallContactMemory::Contact* WallContactMemory::placeAtEnd(int row, std::size_t count)
+{
+    ranges_[row] = {contacts_.size(), count};
+    contacts_.resize(contacts_.size() + count);
+    inOrder_ = false;
+    return contacts_.data() + ranges_[row].first;
+}
+
+void WallContactMemory::copyRow(int from, int to)
+{
+    const Range source = ranges_[from];
+    placeAtEnd(to, source.count);
+    std::copy_n(contacts_.begin() + static_cast<std::ptrdiff_t>(source.first), source.count,
+                contacts_.begin() + static_cast<std::ptrdiff_t>(ranges_[to].first));
+    occupiedKnown_ = false;
+}
+
+void WallContactMemory::clearRow(int row)
+{
+    ranges_[row].count = 0;
+    inOrder_ = false;
+    occupiedKnown_ = false;
+}
+
 std::size_t WallContactMemory::pack(int row, double* buffer) const
 {
     std::size_t n = 0;
-    buffer[n++] = static_cast<double>(contacts_[row].size());
-    for (const Contact& contact : contacts_[row]) {
+    buffer[n++] = static_cast<double>(ranges_[row].count);
+    for (std::size_t k = 0; k < ranges_[row].count; ++k) {
+        const Contact& contact = contacts_[ranges_[row].first + k];
         buffer[n++] = contact.wall;
         buffer[n++] = contact.area;
         buffer[n++] = contact.largestArea;
@@ -46,9 +71,10 @@ std::size_t WallContactMemory::pack(int row, double* buffer) const
 std::size_t WallContactMemory::unpack(int row, const double* buffer)
 {
     std::size_t n = 0;
-    occupiedKnown_ = false;
-    contacts_[row].resize(static_cast<std::size_t>(buffer[n++]));
-    for (Contact& contact : contacts_[row]) {
+    const auto count = static_cast<std::size_t>(buffer[n++]);
+    Contact* const contacts = placeAtEnd(row, count);
+    for (std::size_t k = 0; k < count; ++k) {
+        Contact& contact = contacts[k];
         contact.wall = static_cast<int>(buffer[n++]);
         contact.area = buffer[n++];
         contact.largestArea = buffer[n++];
@@ -58,6 +84,7 @@ std::size_t WallContactMemory::unpack(int row, const double* buffer)
         contact.moved = buffer[n++];
         contact.newArea = notTouched;
     }
+    occupiedKnown_ = false;
     return n;
 }
 
@@ -65,14 +92,24 @@ WallContactMemory::Contact* WallContactMemory::find(int row, const WallTouch& to
 {
     Contact* best = nullptr;
     double bestCosine = cosCurvature_;
-    for (Contact& contact : contacts_[row]) {
-        const double cosine = dot(contact.normal, touch.normal);
-        if (contact.wall == touch.wall && cosine >= bestCosine) {
-            best = &contact;
+    Contact* const first = contacts_.data() + ranges_[row].first;
+    for (Contact* contact = first; contact != first + ranges_[row].count; ++contact) {
+        const double cosine = dot(contact->normal, touch.normal);
+        if (contact->wall == touch.wall && cosine >= bestCosine) {
+            best = contact;
             bestCosine = cosine;
         }
     }
     return best;
+}
+
+WallContactMemory::Contact* WallContactMemory::begin(int row, int wall)
+{
+    const Range before = ranges_[row];
+    Contact* const contacts = placeAtEnd(row, before.count + 1);
+    std::copy_n(contacts_.data() + before.first, before.count, contacts);
+    contacts[before.count] = {wall, 0.0, 0.0, {0, 0, 0}, 0.0, notTouched};
+    return contacts + before.count;
 }
 
 void WallContactMemory::findOccupied(int rows)
@@ -82,12 +119,28 @@ void WallContactMemory::findOccupied(int rows)
     }
     occupied_.clear();
     for (int row = 0; row < rows; ++row) {
-        if (!contacts_[row].empty()) {
+        if (ranges_[row].count > 0) {
             occupied_.push_back(row);
         }
     }
+    // Rows beyond are those of particles that have gone.
+    std::fill(ranges_.begin() + rows, ranges_.end(), Range());
+    inOrder_ = false;
     occupiedKnown_ = true;
     rowsKnown_ = rows;
+}
+
+void WallContactMemory::layInOrder()
+{
+    next_.clear();
+    for (const int row : occupied_) {
+        Range& range = ranges_[row];
+        const auto first = contacts_.begin() + static_cast<std::ptrdiff_t>(range.first);
+        range.first = next_.size();
+        next_.insert(next_.end(), first, first + static_cast<std::ptrdiff_t>(range.count));
+    }
+    contacts_.swap(next_);
+    inOrder_ = true;
 }
 
 std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, int rows, Reloading reloading,
@@ -100,11 +153,10 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
     for (const WallTouch& touch : touches) {
         Contact* contact = find(touch.particle, touch);
         if (!contact) {
-            if (contacts_[touch.particle].empty()) {
+            if (ranges_[touch.particle].count == 0) {
                 occupied_.push_back(touch.particle);
             }
-            contacts_[touch.particle].push_back({touch.wall, 0.0, 0.0, {0, 0, 0}, 0.0, notTouched});
-            contact = &contacts_[touch.particle].back();
+            contact = begin(touch.particle, touch.wall);
             ++begun;
         }
         if (touch.area > contact->newArea) {
@@ -115,11 +167,25 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
     if (occupied_.size() > before) {
         std::sort(occupied_.begin(), occupied_.end());
     }
+    if (!inOrder_) {
+        layInOrder();
+    }
+    // Contacts and rows that go on move up to those that stay before them.
+    Contact* kept = contacts_.data();
+    std::size_t rowsKept = 0;
     for (const int row : occupied_) {
-        auto& contacts = contacts_[row];
-        contacts.erase(std::remove_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.newArea < 0; }),
-                       contacts.end());
-        for (Contact& contact : contacts) {
+        Range& range = ranges_[row];
+        const Contact* const first = contacts_.data() + range.first;
+        const Contact* const end = first + range.count;
+        range.first = static_cast<std::size_t>(kept - contacts_.data());
+        for (const Contact* seen = first; seen != end; ++seen) {
+            if (seen->newArea < 0) {
+                continue;
+            }
+            if (kept != seen) {
+                *kept = *seen;
+            }
+            Contact& contact = *kept++;
             const double reference = reloading == Reloading::counted ? contact.area : contact.largestArea;
             const double growth = contact.newArea - reference;
             if (growth > 0) {
@@ -134,10 +200,13 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
             contact.largestArea = std::max(contact.largestArea, contact.newArea);
             contact.newArea = notTouched;
         }
+        range.count = static_cast<std::size_t>(kept - contacts_.data()) - range.first;
+        if (range.count > 0) {
+            occupied_[rowsKept++] = row;
+        }
     }
-    occupied_.erase(
-        std::remove_if(occupied_.begin(), occupied_.end(), [this](int row) { return contacts_[row].empty(); }),
-        occupied_.end());
+    occupied_.resize(rowsKept);
+    contacts_.resize(static_cast<std::size_t>(kept - contacts_.data()));
     return begun;
 }
 

@@ -12,9 +12,9 @@ namespace him {
 struct GrowingWallContact {
     int particle;
     int wall;
-    double growth;     ///< dA > 0 [m2]
-    double normal[3];  ///< from the particle into the wall
-    double area = 0;   ///< now [m2]
+    double growth;            ///< dA > 0 [m2]
+    double normal[3];         ///< from the particle into the wall
+    double area = 0;          ///< now [m2]
     double* moved = nullptr;  ///< charge that this contact has given to the particle since it began [C]
     double fieldNormal = 0;   ///< E_other . n at the contact point, where it is asked for [V/m]
 };
@@ -28,21 +28,13 @@ public:
     explicit WallContactMemory(double curvature);
 
     /// Makes room for the rows [0, rows).
-    void resize(std::size_t rows) { contacts_.resize(rows); }
-    void copyRow(int from, int to)
-    {
-        contacts_[to] = contacts_[from];
-        occupiedKnown_ = false;
-    }
-    void clearRow(int row)
-    {
-        contacts_[row].clear();
-        occupiedKnown_ = false;
-    }
+    void resize(std::size_t rows) { ranges_.resize(rows); }
+    void copyRow(int from, int to);
+    void clearRow(int row);
 
     static constexpr std::size_t contactDoubles = 7;  ///< stored per contact
     /// Doubles needed to store a row, and storing and reading it (migration, restart). Both return the count.
-    std::size_t packedSize(int row) const { return 1 + contactDoubles * contacts_[row].size(); }
+    std::size_t packedSize(int row) const { return 1 + contactDoubles * ranges_[row].count; }
     std::size_t pack(int row, double* buffer) const;
     std::size_t unpack(int row, const double* buffer);
 
@@ -61,13 +53,26 @@ private:
         double moved;    ///< charge given to the particle since the contact began [C]
         double newArea;  ///< of this step; negative until a touch is seen
     };
+    /// Where the contacts of a row stand among all of them.
+    struct Range {
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
     Contact* find(int row, const WallTouch& touch);
+    Contact* begin(int row, int wall);
+    /// A place for the contacts of a row at the end of all of them; those that it had stay where they were, as nobody's.
+    Contact* placeAtEnd(int row, std::size_t count);
     void findOccupied(int rows);
+    void layInOrder();
 
     double cosCurvature_;
-    std::vector<std::vector<Contact>> contacts_;
+    /// Contacts of all rows. The work of a step goes along them in the order of rows; between steps, rows that were moved or
+    /// read stand at the end and leave gaps.
+    std::vector<Contact> contacts_, next_;
+    std::vector<Range> ranges_;  ///< per row
     /// Rows that had contacts after the last update(), in order: few particles of a bed touch a wall.
     std::vector<int> occupied_;
+    bool inOrder_ = true;         ///< contacts_ follow occupied_ without gaps
     bool occupiedKnown_ = false;  ///< false after rows moved or were cleared
     int rowsKnown_ = 0;           ///< of the last update()
 };

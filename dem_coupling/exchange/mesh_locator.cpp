@@ -43,6 +43,8 @@ void MeshLocator::locate(const Points& positions)
 {
     const Index rows = positions.rows();
     owner_.assign(static_cast<std::size_t>(rows), -1);
+    cellBefore_.swap(cell_);
+    cellBefore_.resize(static_cast<std::size_t>(rows), -1);
     cell_.assign(static_cast<std::size_t>(rows), -1);
     ownersCell_.assign(static_cast<std::size_t>(rows), -1);
     cellCentre_ = positions;
@@ -56,7 +58,8 @@ void MeshLocator::locate(const Points& positions)
         const Vector3 position = positions.row(row).matrix().transpose();
         const Vector3 shift = shiftIntoBox(position);
         const Vector3 point = position + shift;
-        const Index cell = mesh_.findCell(point);
+        const Index before = cellBefore_[static_cast<std::size_t>(row)];
+        const Index cell = before >= 0 && mesh_.surelyHolds(before, point) ? before : mesh_.findCell(point);
         if (cell >= 0) {
             owner_[static_cast<std::size_t>(row)] = exchange_.rank();
             cell_[static_cast<std::size_t>(row)] = cell;

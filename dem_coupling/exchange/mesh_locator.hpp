@@ -60,6 +60,7 @@ private:
     std::vector<Box> bounds_;
     std::vector<int> owner_;         ///< rank of the cell of each row, -1 when there is none
     std::vector<Index> cell_;        ///< local cell of each row that this rank's mesh holds
+    std::vector<Index> cellBefore_;  ///< the same at the locate() before: few particles leave their cell in a step
     std::vector<Index> ownersCell_;  ///< the same for every row, numbered by the rank that holds it
     Points cellCentre_;
     std::vector<std::vector<Index>> askedRows_;      ///< rows that each rank was asked about

@@ -129,13 +129,12 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
         for (const Vector3& corner : faces_[n].corners) {
             box.extend(corner);
         }
-        boxes_.push_back(box);
         const Vector3 margin = Vector3::Constant(reach * (1 + sameDistance));
         const Bin low = binOf(box.lower - margin), high = binOf(box.upper + margin);
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
             for (std::int64_t y = low[1]; y <= high[1]; ++y) {
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-                    bins_[{x, y, z}].push_back(static_cast<Index>(n));
+                    bins_[{x, y, z}].push_back({box, static_cast<Index>(n), faces_[n].wall});
                 }
             }
         }
@@ -166,15 +165,16 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
         return best;
     }
     const double tolerance = sameDistance * (reach_ + binSize_);
-    const auto boxDistance = [&](Index face) {
-        return serves(face, wall) ? squaredDistance(point, boxes_[static_cast<std::size_t>(face)])
-                                  : std::numeric_limits<double>::infinity();
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const auto boxDistance = [&](const Candidate& candidate) {
+        return serves(candidate.wall, wall) ? squaredDistance(point, candidate.box) : never;
+    };
+    // Whether a face whose box is so far away can still be the one.
+    const auto isUseful = [&](double squared) {
+        const double useful = tolerance + (best.face < 0 ? reach_ : std::min(reach_, best.distance + tolerance));
+        return squared <= useful * useful;
     };
     const auto consider = [&](Index face) {
-        const double useful = tolerance + (best.face < 0 ? reach_ : std::min(reach_, best.distance + tolerance));
-        if (boxDistance(face) > useful * useful) {
-            return;
-        }
         const double away = distance(point, face);
         if (away > reach_) {
             return;
@@ -185,21 +185,28 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
             best = {face, away};
         }
     };
-    // No face is nearer than its box. The face of the nearest box is nearly always the one, and leaves few others to look at.
-    const std::vector<Index>& faces = bin->second;
-    Index first = faces.front();
-    double least = boxDistance(first);
-    for (const Index face : faces) {
-        const double square = boxDistance(face);
-        if (square < least) {
-            first = face;
-            least = square;
+    // No face is nearer than its box. The face of the nearest box is nearly always the one, and nearly always rules out the rest.
+    double least = never, second = never;
+    Index first = -1;
+    for (const Candidate& candidate : bin->second) {
+        const double squared = boxDistance(candidate);
+        if (squared < least) {
+            second = least;
+            least = squared;
+            first = candidate.face;
+        } else {
+            second = std::min(second, squared);
         }
     }
+    if (first < 0 || !isUseful(least)) {
+        return best;
+    }
     consider(first);
-    for (const Index face : faces) {
-        if (face != first) {
-            consider(face);
+    if (isUseful(second)) {
+        for (const Candidate& candidate : bin->second) {
+            if (candidate.face != first && isUseful(boxDistance(candidate))) {
+                consider(candidate.face);
+            }
         }
     }
     return best;
@@ -209,7 +216,7 @@ double WallFaces::distanceTo(const Vector3& point, int wall) const
 {
     double least = std::numeric_limits<double>::infinity();
     for (Index face = 0; face < static_cast<Index>(faces_.size()); ++face) {
-        if (serves(face, wall)) {
+        if (serves(faces_[static_cast<std::size_t>(face)].wall, wall)) {
             least = std::min(least, distance(point, face));
         }
     }

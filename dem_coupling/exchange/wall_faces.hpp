@@ -65,19 +65,21 @@ private:
     };
     Bin binOf(const Vector3& point) const;
     double distance(const Vector3& point, Index face) const;
-    bool serves(Index face, int wall) const
-    {
-        return wall == anyWall || faces_[static_cast<std::size_t>(face)].wall == wall;
-    }
+    static bool serves(int wallOfFace, int wall) { return wall == anyWall || wallOfFace == wall; }
 
     SparseExchange exchange_;
     double reach_;
     double binSize_ = 1;  ///< [m]
     std::vector<WallFacePolygon> faces_;
     std::vector<Vector3> centres_, normals_;
-    std::vector<Box> boxes_;  ///< around the corners of each face
     std::vector<Index> firstOfRank_;  ///< one more than ranks
-    std::unordered_map<Bin, std::vector<Index>, BinHash> bins_;  ///< faces whose reach touches a bin
+    /// What find() asks every face of a bin first, side by side in memory.
+    struct Candidate {
+        Box box;  ///< around the corners
+        Index face;
+        int wall;
+    };
+    std::unordered_map<Bin, std::vector<Candidate>, BinHash> bins_;  ///< faces whose reach touches a bin
     SparseExchange::Buffers outgoing_, incoming_;
 };
 

@@ -295,7 +295,7 @@ void FixChargeGranContact::end_of_step()
         rows.type = atom->type;
         rows.radius = atom->radius;
         rows.charge = atom->q;
-        rows.held.rows = field_ ? field_->held() : nullptr;
+        rows.held.first = field_ ? field_->held()[0] : nullptr;
 
         transfer_.sumRelaxations(rows, recorder_.pairs, growingWallContacts_);
         const bool ghosts = comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;

@@ -20,12 +20,11 @@ constexpr double radius = 1e-3;
 
 /// Particles on one rank, with their held fields.
 struct Scene {
-    explicit Scene(int n) : tag(n), type(n, 1), size(n, radius), charge(n, 0.0), held(n), heldRows(n)
+    explicit Scene(int n) : tag(n), type(n, 1), size(n, radius), charge(n, 0.0), held(n)
     {
         std::iota(tag.begin(), tag.end(), 1);
         for (int i = 0; i < n; ++i) {
             held[i].fill(0);
-            heldRows[i] = held[i].data();
         }
     }
     DemRows rows(bool withField = false)
@@ -36,7 +35,7 @@ struct Scene {
         rows.type = type.data();
         rows.radius = size.data();
         rows.charge = charge.data();
-        rows.held.rows = withField ? heldRows.data() : nullptr;
+        rows.held.first = withField ? held[0].data() : nullptr;
         return rows;
     }
     double total() const { return std::accumulate(charge.begin(), charge.end(), 0.0); }
@@ -44,7 +43,6 @@ struct Scene {
     std::vector<int> tag, type;
     std::vector<double> size, charge;
     std::vector<std::array<double, HeldField::width>> held;
-    std::vector<const double*> heldRows;
 };
 
 ChargeTransfer law(double kappaPair, double gammaWall = 0, double kappaWall = 0)

@@ -40,7 +40,6 @@ struct Bodies {
     std::array<double, 2> size{radius, 2 * radius};
     std::array<double, 2> charge{0, 0};
     std::array<std::array<double, HeldField::width>, 2> held{};
-    std::array<const double*, 2> heldRows{held[0].data(), held[1].data()};
 
     DemRows rows(bool withField)
     {
@@ -50,7 +49,7 @@ struct Bodies {
         rows.type = type.data();
         rows.radius = size.data();
         rows.charge = charge.data();
-        rows.held.rows = withField ? heldRows.data() : nullptr;
+        rows.held.first = withField ? held[0].data() : nullptr;
         return rows;
     }
     void step(ChargeTransfer& transfer, const std::vector<GrowingPair>& pairs, const std::vector<GrowingWallContact>& walls,
