@@ -12,7 +12,7 @@ DIAMETER, DENSITY = 1e-3, 1000
 GAS, VISCOSITY, GRAVITY = 1.2, 1.8e-5, 9.81
 AREA, LAYER = 25e-6, 2e-3
 SETTLED = 0.35              # [s] time at which the gas begins to flow
-INSIDE = (3, 30)            # layers whose centres are the two heights inside the bed
+INSIDE = (3, 30)            # layers whose centres are the two heights inside the bed, those of the probes in system/controlDict
 
 
 def table(model):
@@ -47,7 +47,7 @@ def inside(model, speed_at):
     knows the porosity; at an edge it sees the mean of two layers. Thirteen of them: means of the pressure over the 0.05 s about
     each written time, whose porosity they use. Instants would not do: spheres that shift take momentum from the gas for a moment."""
     probed = np.loadtxt(f"runs/{model}/postProcessing/insidePressure/0/p")
-    times, drops = probed[:, 0], probed[:, 1] - probed[:, -1]       # the lowest and the highest probe
+    times, drops = probed[:, 0], probed[:, 1] - probed[:, 2]
     low, high = INSIDE
     weights = np.ones(high - low + 1)
     weights[[0, -1]] = 0.5                                          # from centre to centre

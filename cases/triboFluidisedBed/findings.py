@@ -50,6 +50,7 @@ def findings(runs, base):
     for strength, group in same_start(runs).items():
         for run in group:
             if run.bed["chargingTime"][-1] < 4*EARLY or not np.isfinite(run.bed["tau"][-1]):
+                found.append((f"{run.name}: a t = {run.bed['chargingTime'][-1]:.0f} s, below {4*EARLY:g} s: fit and wall layer are not judged", None))
                 continue
             off = run.bed["fitDeviation"][-1]/run.bed["chargePerMass"][-1]
             found.append((f"{run.name}: S6.1 fits the charge to {100*off:.1f} % RMS; {100*run.bed['chargePerMass'][-1]/run.bed['saturation'][-1]:.0f} % of "

@@ -14,7 +14,7 @@ double dot(const double* a, const double* b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The held fields of partners lie apart in memory, so that contacts a few ahead are sent for: a bed's do not fit into the caches.
+/// The held fields of partners lie apart in memory, more of them than the caches hold: contacts a few ahead are sent for.
 constexpr std::size_t fetchAhead = 8;
 
 void fetch(const double* held)

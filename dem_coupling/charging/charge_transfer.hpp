@@ -4,27 +4,16 @@
 #include "dem_coupling/charging/charging_pairs.hpp"
 #include "dem_coupling/charging/compensated_sum.hpp"
 #include "dem_coupling/charging/contact_recorder.hpp"
+#include "dem_coupling/charging/held_field.hpp"
 #include "dem_coupling/charging/wall_contact_memory.hpp"
 #include "dem_coupling/dem_port.hpp"
 #include "electrostatics/contact_charging.hpp"
 #include "electrostatics/parameters/charging_efficiency.hpp"
 
-#include <cstddef>
 #include <limits>
 #include <vector>
 
 namespace him {
-
-/// The field handed to the DEM, per row, with the positions and charges that made it: Ex, Ey, Ez [V/m], x, y, z [m], q [C],
-/// and the share of the field that the particle's own images and induced charge make [V/m].
-struct HeldField {
-    static constexpr int width = 10;
-    static constexpr int position = 3;     ///< first of its three columns
-    static constexpr int ownResponse = 7;  ///< first of its three columns
-    const double* first = nullptr;         ///< of row 0, the others follow; null when the scene has no field
-
-    const double* row(int i) const { return first + static_cast<std::ptrdiff_t>(width) * i; }
-};
 
 /// The DEM's arrays of one step. Rows [0, local) are owned, [local, all) are ghosts.
 struct DemRows {

@@ -38,6 +38,10 @@ WallContactMemory::Contact* WallContactMemory::placeAtEnd(int row, std::size_t c
 void WallContactMemory::copyRow(int from, int to)
 {
     const Range source = ranges_[from];
+    if (source.count == 0) {
+        clearRow(to);
+        return;
+    }
     placeAtEnd(to, source.count);
     std::copy_n(contacts_.begin() + static_cast<std::ptrdiff_t>(source.first), source.count,
                 contacts_.begin() + static_cast<std::ptrdiff_t>(ranges_[to].first));
@@ -46,7 +50,7 @@ void WallContactMemory::copyRow(int from, int to)
 
 void WallContactMemory::clearRow(int row)
 {
-    ranges_[row].count = 0;
+    ranges_[row] = Range();
     inOrder_ = false;
     occupiedKnown_ = false;
 }
@@ -165,7 +169,9 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
         }
     }
     if (occupied_.size() > before) {
-        std::sort(occupied_.begin(), occupied_.end());
+        const auto added = occupied_.begin() + static_cast<std::ptrdiff_t>(before);
+        std::sort(added, occupied_.end());
+        std::inplace_merge(occupied_.begin(), added, occupied_.end());
     }
     if (!inOrder_) {
         layInOrder();
@@ -203,6 +209,8 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
         range.count = static_cast<std::size_t>(kept - contacts_.data()) - range.first;
         if (range.count > 0) {
             occupied_[rowsKept++] = row;
+        } else {
+            range = Range();
         }
     }
     occupied_.resize(rowsKept);

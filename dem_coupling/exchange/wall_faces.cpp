@@ -67,6 +67,19 @@ double squaredDistance(const Vector3& point, const Box& box)
     return (box.lower - point).cwiseMax(point - box.upper).cwiseMax(0.0).squaredNorm();
 }
 
+/// Whether a face is the whole of its box, a rectangle along the axes, to round-off.
+/// @param area  of the face [m2]
+bool fillsBox(const std::vector<Vector3>& corners, double area, const Box& box)
+{
+    const Vector3 size = box.size();
+    const double whole = size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+    const double tolerance = sameDistance * size.maxCoeff();
+    return corners.size() == 4 && size.minCoeff() <= tolerance && area >= (1 - 4 * sameDistance) * whole
+           && std::all_of(corners.begin(), corners.end(), [&](const Vector3& corner) {
+                  return (corner - box.lower).cwiseMin(box.upper - corner).maxCoeff() <= tolerance;
+              });
+}
+
 /// Lexicographic order that takes nearly equal numbers for equal.
 bool before(const Vector3& a, const Vector3& b, double tolerance)
 {
@@ -95,6 +108,7 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
     MPI_Allgatherv(own.data(), count, MPI_DOUBLE, data.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator);
 
     double largest = 0;
+    std::vector<double> areas;
     for (std::size_t rank = 0; rank < ranks; ++rank) {
         firstOfRank_.push_back(static_cast<Index>(faces_.size()));
         const double* in = data.data() + starts[rank];
@@ -117,6 +131,7 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
                 largest = std::max(largest, (corner - centre).norm());
             }
             centres_.push_back(centre);
+            areas.push_back(0.5 * normal.norm());
             normals_.push_back(normal.normalized());
             faces_.push_back(std::move(face));
         }
@@ -129,12 +144,13 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
         for (const Vector3& corner : faces_[n].corners) {
             box.extend(corner);
         }
+        const bool fills = fillsBox(faces_[n].corners, areas[n], box);
         const Vector3 margin = Vector3::Constant(reach * (1 + sameDistance));
         const Bin low = binOf(box.lower - margin), high = binOf(box.upper + margin);
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
             for (std::int64_t y = low[1]; y <= high[1]; ++y) {
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-                    bins_[{x, y, z}].push_back({box, static_cast<Index>(n), faces_[n].wall});
+                    bins_[{x, y, z}].push_back({box, static_cast<Index>(n), faces_[n].wall, fills});
                 }
             }
         }
@@ -174,8 +190,9 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
         const double useful = tolerance + (best.face < 0 ? reach_ : std::min(reach_, best.distance + tolerance));
         return squared <= useful * useful;
     };
-    const auto consider = [&](Index face) {
-        const double away = distance(point, face);
+    const auto consider = [&](const Candidate& candidate, double squared) {
+        const Index face = candidate.face;
+        const double away = candidate.fillsBox ? std::sqrt(squared) : distance(point, face);
         if (away > reach_) {
             return;
         }
@@ -187,25 +204,26 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
     };
     // No face is nearer than its box. The face of the nearest box is nearly always the one, and nearly always rules out the rest.
     double least = never, second = never;
-    Index first = -1;
+    const Candidate* first = nullptr;
     for (const Candidate& candidate : bin->second) {
         const double squared = boxDistance(candidate);
         if (squared < least) {
             second = least;
             least = squared;
-            first = candidate.face;
+            first = &candidate;
         } else {
             second = std::min(second, squared);
         }
     }
-    if (first < 0 || !isUseful(least)) {
+    if (!first || !isUseful(least)) {
         return best;
     }
-    consider(first);
+    consider(*first, least);
     if (isUseful(second)) {
         for (const Candidate& candidate : bin->second) {
-            if (candidate.face != first && isUseful(boxDistance(candidate))) {
-                consider(candidate.face);
+            const double squared = boxDistance(candidate);
+            if (&candidate != first && isUseful(squared)) {
+                consider(candidate, squared);
             }
         }
     }

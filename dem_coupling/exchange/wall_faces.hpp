@@ -63,6 +63,13 @@ private:
             return mixed;
         }
     };
+    /// What find() asks every face of a bin first, side by side in memory.
+    struct Candidate {
+        Box box;  ///< around the corners
+        Index face;
+        int wall;
+        bool fillsBox;  ///< a rectangle along the axes: as far as its box
+    };
     Bin binOf(const Vector3& point) const;
     double distance(const Vector3& point, Index face) const;
     static bool serves(int wallOfFace, int wall) { return wall == anyWall || wallOfFace == wall; }
@@ -72,13 +79,7 @@ private:
     double binSize_ = 1;  ///< [m]
     std::vector<WallFacePolygon> faces_;
     std::vector<Vector3> centres_, normals_;
-    std::vector<Index> firstOfRank_;  ///< one more than ranks
-    /// What find() asks every face of a bin first, side by side in memory.
-    struct Candidate {
-        Box box;  ///< around the corners
-        Index face;
-        int wall;
-    };
+    std::vector<Index> firstOfRank_;                                 ///< one more than ranks
     std::unordered_map<Bin, std::vector<Candidate>, BinHash> bins_;  ///< faces whose reach touches a bin
     SparseExchange::Buffers outgoing_, incoming_;
 };

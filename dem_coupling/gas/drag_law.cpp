@@ -15,12 +15,6 @@ namespace {
 /// Below this Reynolds number laws with Re in a denominator or a logarithm take their limit: no sum changes in its last digit.
 constexpr double creeping = 1e-12;
 
-/// Stokes' 3 pi mu d [kg/s], the measure of all laws.
-double stokes(const DragPoint& at)
-{
-    return 3 * pi * at.viscosity * at.diameter;
-}
-
 /// Drag of a single sphere is 0.44 up to the drag crisis.
 constexpr double dragCrisis = 2e5;
 
@@ -57,20 +51,31 @@ bool kochHillHolds(const DragPoint& at)
     return at.voidFraction >= 0.36 && superficialReynolds(at) <= 120;
 }
 
+/// One after the other.
+template <double (*law)(const DragPoint&)> void ofMany(const DragPoints& points, Scalars& beta)
+{
+    beta.resize(points.rows());
+    for (Index row = 0; row < points.rows(); ++row) {
+        beta[row] = law(points.at(row));
+    }
+}
+
 struct Entry {
     const char* name;
     double (*law)(const DragPoint&);
+    DragOfMany ofMany;
     DragLawRange holds;
     const char* range;
 };
 constexpr std::array<Entry, 6> laws{{
-    {"WenYu", &wenYuDrag, &wenYuHolds, "void fraction from 0.4, Re up to 2e5"},
-    {"SchillerNaumann", &schillerNaumannDrag, &schillerNaumannHolds, "void fraction from 0.98, Re up to 2e5"},
-    {"Gidaspow", &gidaspowDrag, &gidaspowHolds,
+    {"WenYu", &wenYuDrag, &wenYuDragOfMany, &wenYuHolds, "void fraction from 0.4, Re up to 2e5"},
+    {"SchillerNaumann", &schillerNaumannDrag, &ofMany<schillerNaumannDrag>, &schillerNaumannHolds,
+     "void fraction from 0.98, Re up to 2e5"},
+    {"Gidaspow", &gidaspowDrag, &ofMany<gidaspowDrag>, &gidaspowHolds,
      "void fraction from 0.36, Re/(1 - void fraction) up to 2500 below void fraction 0.8, Re up to 2e5 above"},
-    {"Beetstra", &beetstraDrag, &beetstraHolds, "void fraction 0.4 to 0.9, Re up to 1000"},
-    {"DiFelice", &diFeliceDrag, &diFeliceHolds, "void fraction from 0.4, Re up to 1e4"},
-    {"KochHill", &kochHillDrag, &kochHillHolds, "void fraction from 0.36, Re up to 120"},
+    {"Beetstra", &beetstraDrag, &ofMany<beetstraDrag>, &beetstraHolds, "void fraction 0.4 to 0.9, Re up to 1000"},
+    {"DiFelice", &diFeliceDrag, &ofMany<diFeliceDrag>, &diFeliceHolds, "void fraction from 0.4, Re up to 1e4"},
+    {"KochHill", &kochHillDrag, &ofMany<kochHillDrag>, &kochHillHolds, "void fraction from 0.36, Re up to 120"},
 }};
 
 const Entry& entryOf(const std::string& name)
@@ -88,6 +93,13 @@ const Entry& entryOf(const std::string& name)
 
 }  // namespace
 
+void DragPoints::resize(Index rows)
+{
+    voidFraction.resize(rows);
+    slip.resize(rows);
+    diameter.resize(rows);
+}
+
 std::vector<std::string> dragLawNames()
 {
     std::vector<std::string> names;
@@ -102,6 +114,11 @@ DragLaw makeDragLaw(const std::string& name)
     return entryOf(name).law;
 }
 
+DragOfMany dragOfMany(const std::string& name)
+{
+    return entryOf(name).ofMany;
+}
+
 DragLawRange dragLawRange(const std::string& name)
 {
     return entryOf(name).holds;
@@ -112,38 +129,24 @@ std::string dragLawRangeInWords(const std::string& name)
     return entryOf(name).range;
 }
 
-std::vector<std::string> dragLawsThatHold(double voidFraction, double reynolds)
+DragLawSet dragLawsThatHold(const DragPoint& at)
 {
-    DragPoint at{voidFraction, 1, 1, 1, 1};
-    at.slip = reynolds / superficialReynolds(at);
+    DragLawSet set = 0;
+    for (std::size_t n = 0; n < laws.size(); ++n) {
+        set |= laws[n].holds(at) ? DragLawSet(1) << n : 0;
+    }
+    return set;
+}
+
+std::vector<std::string> dragLawNames(DragLawSet set)
+{
     std::vector<std::string> names;
-    for (const Entry& law : laws) {
-        if (law.holds(at)) {
-            names.emplace_back(law.name);
+    for (std::size_t n = 0; n < laws.size(); ++n) {
+        if (set >> n & 1) {
+            names.emplace_back(laws[n].name);
         }
     }
     return names;
-}
-
-double superficialReynolds(const DragPoint& at)
-{
-    return at.voidFraction * at.density * at.slip * at.diameter / at.viscosity;
-}
-
-double singleSphereDragTimesReynolds(double reynolds)
-{
-    return reynolds < 1000 ? 24 * (1 + 0.15 * std::pow(reynolds, 0.687)) : 0.44 * reynolds;
-}
-
-double wenYuDrag(const DragPoint& at)
-{
-    // 3/4 C_D alpha rho slip alpha^-2.65 V_p / d, with C_D Re in place of C_D so that slip 0 is no special case.
-    return stokes(at) * singleSphereDragTimesReynolds(superficialReynolds(at)) / 24 * std::pow(at.voidFraction, -2.65);
-}
-
-double schillerNaumannDrag(const DragPoint& at)
-{
-    return stokes(at) * singleSphereDragTimesReynolds(at.density * at.slip * at.diameter / at.viscosity) / 24;
 }
 
 double ergunDrag(const DragPoint& at)
@@ -165,14 +168,14 @@ double beetstraDrag(const DragPoint& at)
     // The paper's F is model A's drag over 3 pi mu d times the superficial slip, voidFraction times the slip: its creeping
     // part in packed beds, 10 solid/gas^2, is Carman's 180 without the share of the pressure gradient.
     const double gas = at.voidFraction;
-    const double solid = 1 - gas;
+    const double solid = std::max(1 - gas, 0.0);  // round-off of a smoothed void fraction
     const double reynolds = superficialReynolds(at);
     double force = 10 * solid / (gas * gas) + gas * gas * (1 + 1.5 * std::sqrt(solid));
     if (reynolds > creeping) {
         force += 0.413 * reynolds / (24 * gas * gas) * (1 / gas + 3 * gas * solid + 8.4 * std::pow(reynolds, -0.343))
                  / (1 + std::pow(10, 3 * solid) * std::pow(reynolds, -0.5 * (1 + 4 * solid)));
     }
-    return stokes(at) * gas * force;
+    return stokesDrag(at) * gas * force;
 }
 
 double diFeliceDrag(const DragPoint& at)
@@ -189,7 +192,7 @@ double diFeliceDrag(const DragPoint& at)
 double kochHillDrag(const DragPoint& at)
 {
     const double gas = at.voidFraction;
-    const double solid = 1 - gas;
+    const double solid = std::max(1 - gas, 0.0);
     double creepingForce = 10 * solid / (gas * gas * gas);
     if (solid < 0.4) {
         const double logarithm = solid > 0 ? 135.0 / 64 * solid * std::log(solid) : 0;
@@ -198,7 +201,7 @@ double kochHillDrag(const DragPoint& at)
     }
     const double inertia = 0.0673 + 0.212 * solid + 0.0232 / std::pow(gas, 5);
     // 18 mu alpha^2 (1 - alpha)/d^2 (F0 + F3 Re/2) per volume, Re of the superficial slip on the diameter.
-    return stokes(at) * gas * gas * (creepingForce + 0.5 * inertia * superficialReynolds(at));
+    return stokesDrag(at) * gas * gas * (creepingForce + 0.5 * inertia * superficialReynolds(at));
 }
 
 }  // namespace him

@@ -33,7 +33,7 @@ GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& s
       mesh_(mesh),
       settings_(settings),
       communicator_(communicator),
-      law_(makeDragLaw(settings.drag)),
+      law_(dragOfMany(settings.drag)),
       lawHolds_(dragLawRange(settings.drag)),
       profile_(profile),
       shares_(mesh, communicator, dem.box(), dem.periodic(), settings.voidFraction == VoidFractionModel::divided),
@@ -42,6 +42,8 @@ GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& s
     for (Index cell = 0; cell < mesh_.cellCount(); ++cell) {
         volume_[cell] = mesh_.cellVolume(cell);
     }
+    dragPoints_.density = settings.density;
+    dragPoints_.viscosity = settings.viscosity;
     sources_.voidFraction.setOnes(mesh_.cellCount());
     sources_.drag.setZero(mesh_.cellCount());
     sources_.dragMomentum.setZero(mesh_.cellCount(), 3);
@@ -189,26 +191,38 @@ void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
         findDeviations(particles, velocity);
         velocityAtRow_ += deviation_;
     }
-    toRows(sources_.voidFraction, voidFractionAtRow_);
+    dragPoints_.resize(particles.size());
+    toRows(sources_.voidFraction, dragPoints_.voidFraction);
+    dragPoints_.slip = (velocityAtRow_ - particles.velocity).square().rowwise().sum().sqrt();
+    dragPoints_.diameter = 2 * particles.radius;
+    if (shares_.rowsOutside() > 0) {
+        for (Index row = 0; row < particles.size(); ++row) {
+            if (!shares_.inMesh(row)) {
+                dragPoints_.voidFraction[row] = 0.5;  // any that the laws take; its drag is not used
+            }
+        }
+    }
+    law_(dragPoints_, beta_);
 
     forces_.resize(particles.size(), settings_.needsGasMotion());
     beyondDragLaw_ = 0;
-    voidFractionBeyond_ = 1;
-    reynoldsBeyond_ = 0;
+    reachedBeyond_ = {-1, 0, 0};
+    holdBeyond_ = ~DragLawSet(0);
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
         }
-        const double slip = (velocityAtRow_.row(row) - particles.velocity.row(row)).matrix().norm();
-        const DragPoint point{voidFractionAtRow_[row], slip, 2 * particles.radius[row], settings_.density,
-                              settings_.viscosity};
-        const double beta = law_(point);
+        const DragPoint point = dragPoints_.at(row);
         if (!lawHolds_(point)) {
             ++beyondDragLaw_;
-            voidFractionBeyond_ = std::min(voidFractionBeyond_, point.voidFraction);
-            reynoldsBeyond_ = std::max(reynoldsBeyond_, superficialReynolds(point));
+            const std::array<double, 3> reached{-point.voidFraction, point.voidFraction, superficialReynolds(point)};
+            for (std::size_t n = 0; n < reached.size(); ++n) {
+                reachedBeyond_[n] = std::max(reachedBeyond_[n], reached[n]);
+            }
+            holdBeyond_ &= dragLawsThatHold(point);
         }
-        forces_.drag[row] = settings_.pressure == PressureModel::modelB ? dragOfModelB(beta, point.voidFraction) : beta;
+        forces_.drag[row] =
+            settings_.pressure == PressureModel::modelB ? dragOfModelB(beta_[row], point.voidFraction) : beta_[row];
     }
     toCells(forces_.drag, sources_.drag);
     for (int axis = 0; axis < 3; ++axis) {
@@ -316,10 +330,11 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
     summary_.beyondDragLaw = static_cast<std::int64_t>(sums[3]);
     summary_.beyondLift = static_cast<std::int64_t>(sums[4]);
     if (summary_.beyondDragLaw > 0) {
-        std::array<double, 2> largest{-voidFractionBeyond_, reynoldsBeyond_};
-        MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, communicator_);
-        summary_.voidFractionBeyondDragLaw = -largest[0];
-        summary_.reynoldsBeyondDragLaw = largest[1];
+        MPI_Allreduce(MPI_IN_PLACE, reachedBeyond_.data(), 3, MPI_DOUBLE, MPI_MAX, communicator_);
+        MPI_Allreduce(MPI_IN_PLACE, &holdBeyond_, 1, MPI_UNSIGNED, MPI_BAND, communicator_);
+        summary_.voidFractionsBeyondDragLaw = {-reachedBeyond_[0], reachedBeyond_[1]};
+        summary_.reynoldsBeyondDragLaw = reachedBeyond_[2];
+        summary_.othersBeyondDragLaw = holdBeyond_;
     }
     books_.given += result.given;
     books_.ahead += result.given;

@@ -7,6 +7,8 @@
 #include "dem_coupling/gas/particle_shares.hpp"
 #include "dem_coupling/gas/velocity_profile.hpp"
 
+#include <array>
+
 namespace him {
 
 /// What the particles are to the gas, one value per local cell.
@@ -53,9 +55,10 @@ struct GasSummary {
     Vector3 momentum = Vector3::Zero();    ///< of the particles, at the end of the step [N s]
     Vector3 force = Vector3::Zero();  ///< of drag and pressure gradient on the particles, at the end of the step [N]
     std::int64_t beyondDragLaw = 0;   ///< particles where the drag law has not been shown to hold, see DragLawRange
-    double voidFractionBeyondDragLaw = 1;  ///< the smallest of those particles, which need not have
-    double reynoldsBeyondDragLaw = 0;      ///< the largest superficial Reynolds number of them
-    std::int64_t beyondLift = 0;           ///< the same of the lift, see saffmanHolds()
+    std::array<double, 2> voidFractionsBeyondDragLaw{1, 0};  ///< smallest and largest among those particles
+    double reynoldsBeyondDragLaw = 0;    ///< largest superficial Reynolds number among them, maybe of another one
+    DragLawSet othersBeyondDragLaw = 0;  ///< laws that have been shown to hold for every one of them
+    std::int64_t beyondLift = 0;         ///< the same of the lift, see saffmanHolds()
 };
 
 /// The exchange of momentum between gas and particles, on any mesh and DEM. Holds no gas equation.
@@ -113,7 +116,7 @@ private:
     const GasMesh& mesh_;
     GasSettings settings_;
     MPI_Comm communicator_;
-    DragLaw law_;
+    DragOfMany law_;
     DragLawRange lawHolds_;
     VelocityProfile* profile_;  ///< or null
     ParticleShares shares_;
@@ -123,8 +126,11 @@ private:
     MomentumBooks books_;
     double lastDuration_ = 0;                   ///< [s]
     Index beyondDragLaw_ = 0, beyondLift_ = 0;  ///< of this rank
-    double voidFractionBeyond_ = 1, reynoldsBeyond_ = 0;
-    Scalars volume_, cell_, voidFractionAtRow_;
+    std::array<double, 3> reachedBeyond_{};     ///< -smallest and largest void fraction, largest Reynolds number
+    DragLawSet holdBeyond_ = 0;
+    Scalars volume_, cell_;
+    DragPoints dragPoints_;
+    Scalars beta_;  ///< of each row by model A [kg/s]
     Points given_, promised_, smoothed_, gathered_, velocityAtRow_, vorticityAtRow_;
     Points deviation_;  ///< of the gas velocity at each row from that of its cells [m/s]; no rows without a profile
 };

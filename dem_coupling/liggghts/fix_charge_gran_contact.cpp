@@ -288,30 +288,37 @@ void FixChargeGranContact::end_of_step()
         }
     }
     if (enabled_ && !stopped_) {
-        DemRows rows;
-        rows.local = atom->nlocal;
-        rows.all = atom->nlocal + atom->nghost;
-        rows.tag = atom->tag;
-        rows.type = atom->type;
-        rows.radius = atom->radius;
-        rows.charge = atom->q;
-        rows.held.first = field_ ? field_->held()[0] : nullptr;
-
-        transfer_.sumRelaxations(rows, recorder_.pairs, growingWallContacts_);
-        const bool ghosts = comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
-        if (ghosts) {
-            comm->forward_comm_fix(this);
+        if (transfer_.pairs().transfers()) {
+            moveCharges();
         }
-        if (transfer_.atContactPoint() && field_) {
-            findFieldAtContactPoints();
-        }
-        transfer_.move(rows, recorder_.pairs, growingWallContacts_);
-        keepWallCharges();
         if (losses_.active()) {
             loseCharge();
         }
     }
     recorder_.clear();
+}
+
+void FixChargeGranContact::moveCharges()
+{
+    DemRows rows;
+    rows.local = atom->nlocal;
+    rows.all = atom->nlocal + atom->nghost;
+    rows.tag = atom->tag;
+    rows.type = atom->type;
+    rows.radius = atom->radius;
+    rows.charge = atom->q;
+    rows.held = field_ ? field_->held() : HeldField();
+
+    transfer_.sumRelaxations(rows, recorder_.pairs, growingWallContacts_);
+    const bool ghosts = comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
+    if (ghosts) {
+        comm->forward_comm_fix(this);
+    }
+    if (transfer_.atContactPoint() && field_) {
+        findFieldAtContactPoints();
+    }
+    transfer_.move(rows, recorder_.pairs, growingWallContacts_);
+    keepWallCharges();
 }
 
 int FixChargeGranContact::pack_comm(int n, int* list, double* buffer, int, int*)

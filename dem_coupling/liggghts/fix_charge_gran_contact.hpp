@@ -104,6 +104,8 @@ private:
     std::string timeStepWarning() const;
     /// Charge of particles that are seen for the first time and bring none (initialCharge).
     void chargeNewParticles();
+    /// What the contacts of a step move, by transfer_.
+    void moveCharges();
     void loseCharge();
     void tell(const std::string& text) const;
     /// Refuses pairs without Gamma, and warns of those of types that are not there yet.

@@ -130,7 +130,7 @@ void FixChargeGranContact::findFieldAtContactPoints()
     for (Index n = 0; n < contacts; ++n) {
         const GrowingWallContact& contact = growingWallContacts_[static_cast<std::size_t>(n)];
         // Of the position that made the field, as everything else that charging knows of it.
-        const double* centre = field_->held()[contact.particle] + HeldField::position;
+        const double* centre = field_->held().row(contact.particle) + HeldField::position;
         const double radius = atom->radius[contact.particle];
         for (int d = 0; d < 3; ++d) {
             contactPoints_(n, d) = centre[d] + radius * contact.normal[d];

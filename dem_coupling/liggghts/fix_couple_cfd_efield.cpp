@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/liggghts/fix_couple_cfd_efield.hpp"
 
-#include "dem_coupling/charging/charge_transfer.hpp"
 #include "dem_coupling/liggghts/find_fix.hpp"
 #include "dem_coupling/liggghts/particle_rows.hpp"
 #include "dem_coupling/near_field_refresh.hpp"

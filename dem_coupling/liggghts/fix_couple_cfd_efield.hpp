@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "dem_coupling/charging/held_field.hpp"
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/liggghts/force_limiter.hpp"
 #include "dem_coupling/point_field.hpp"
@@ -35,8 +36,8 @@ public:
     /// See PointField::fieldOfOthers(), of the positions and charges that made the held field. Collective; throws
     /// std::logic_error where nobody knows it.
     void fieldOfOthers(const Points& points, const std::vector<int>& leftOut, Points& field);
-    /// Per row, see HeldField.
-    const double* const* held() const { return held_; }
+    /// Without rows on a rank that has never had a particle.
+    HeldField held() const { return {held_ ? held_[0] : nullptr}; }
     /// Particles that appeared on this rank since this fix was made.
     std::int64_t arrivals() const { return arrivals_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_coupling/liggghts/fix_efield_him.hpp"
 
-#include "dem_coupling/charging/charge_transfer.hpp"
+#include "dem_coupling/charging/held_field.hpp"
 #include "dem_coupling/liggghts/fix_charge_gran_contact.hpp"
 #include "dem_coupling/liggghts/particle_rows.hpp"
 #include "dem_coupling/liggghts/wall_list.hpp"

@@ -49,15 +49,17 @@ void append(std::ostream& line, const Vector3& vector)
     line << ' ' << vector[0] << ' ' << vector[1] << ' ' << vector[2];
 }
 
-/// What a warning says of a place that the chosen drag law has not been shown for.
-std::string lawsThatHold(double voidFraction, double reynolds)
+/// What a warning says of particles that the chosen drag law has not been shown for.
+std::string beyondDragLaw(const GasSummary& summary)
 {
     std::string names;
-    for (const std::string& name : dragLawsThatHold(voidFraction, reynolds)) {
+    for (const std::string& name : dragLawNames(summary.othersBeyondDragLaw)) {
         names += (names.empty() ? "" : ", ") + name;
     }
-    return names.empty() ? ", where no law has; a run with another law shows how much hangs on it"
-                         : ", where these have: " + names;
+    return "Void fractions there are " + shown(summary.voidFractionsBeyondDragLaw[0], 3) + " to "
+           + shown(summary.voidFractionsBeyondDragLaw[1], 3) + ", Re up to " + shown(summary.reynoldsBeyondDragLaw, 3)
+           + (names.empty() ? "; no law has for all of them: a run with another one shows how much hangs on it"
+                            : "; these have for all of them: " + names);
 }
 
 }  // namespace
@@ -224,9 +226,7 @@ std::string gasPhase::describe() const
     if (summary.beyondDragLaw > 0) {
         line += "\n    Warning: " + std::to_string(summary.beyondDragLaw) + " particle(s) where drag "
                 + properties_.exchange.drag + " has not been shown to hold ("
-                + dragLawRangeInWords(properties_.exchange.drag) + "). They reach void fraction "
-                + shown(summary.voidFractionBeyondDragLaw, 3) + " and Re " + shown(summary.reynoldsBeyondDragLaw, 3)
-                + lawsThatHold(summary.voidFractionBeyondDragLaw, summary.reynoldsBeyondDragLaw);
+                + dragLawRangeInWords(properties_.exchange.drag) + "). " + beyondDragLaw(summary);
     }
     if (summary.beyondLift > 0) {
         line += "\n    Warning: " + std::to_string(summary.beyondLift)

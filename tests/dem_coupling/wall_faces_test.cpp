@@ -108,6 +108,36 @@ TEST(WallFaces, findsTheNearestOfTiltedFacesAtEveryPointAsALookAtAllOfThemDoes)
     EXPECT_LT(found, 400);
 }
 
+TEST(WallFaces, findsTheNearestOfRectanglesAlongTheAxesInsideTheirSidesAndBeyondThem)
+{
+    // The three sides of a corner, four faces each.
+    std::vector<WallFacePolygon> sides;
+    for (int normal = 0; normal < 3 && rankOf() == ranksOf() - 1; ++normal) {
+        const Vector3 a = Vector3::Unit((normal + 1) % 3), b = 0.7 * Vector3::Unit((normal + 2) % 3);
+        for (int n = 0; n < 4; ++n) {
+            const Vector3 low = (n % 2) * a + (n / 2) * b;
+            sides.push_back({normal, {low, low + a, low + a + b, low + b}});
+        }
+    }
+    const WallFaces faces(sides, 0.2, MPI_COMM_WORLD);
+    int inside = 0, beyond = 0;
+    for (int n = 0; n < 1000; ++n) {
+        const Vector3 point(0.0137 * n - 2 * std::floor(0.00685 * n) - 0.1, 0.0291 * n - 2 * std::floor(0.01455 * n) - 0.1,
+                            0.0413 * n - 2 * std::floor(0.02065 * n) - 0.1);
+        for (const int wall : {WallFaces::anyWall, 0, 1, 2}) {
+            const double nearest = faces.distanceTo(point, wall);
+            const WallFaces::Place place = faces.find(point, wall);
+            ASSERT_EQ(place.face >= 0, nearest <= faces.reach()) << n;
+            if (place.face >= 0) {
+                EXPECT_NEAR(place.distance, nearest, 1e-12) << n;
+                (point.minCoeff() < 0 ? beyond : inside) += 1;
+            }
+        }
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_GT(beyond, 100);
+}
+
 TEST(WallFaces, bringsEveryChargeOnceToTheRankThatCountsItsFace)
 {
     WallFaces faces(mine(), 0.05, MPI_COMM_WORLD);

@@ -80,7 +80,7 @@ class Forces(GasCase):
     def test_the_log_warns_of_particles_beyond_what_drag_law_and_lift_have_been_shown_for(self):
         """The drag of single spheres in a cell that is a quarter full, and the lift of a sphere at Re = 200; none of a grain alone."""
         drag = "Warning: 1 particle(s) where drag SchillerNaumann has not been shown to hold (void fraction from 0.98, Re up to 2e5)"
-        others = "where these have: WenYu, Gidaspow"
+        others = "these have for all of them: WenYu, Gidaspow"
         lift = "Warning: 1 particle(s) where Saffman's lift does not hold (Re of slip and shear up to 1,"
         for diameter, speed, warned in ((4e-3, 0.5, True), (1e-5, 0.0, False)):
             with self.subTest(diameter=diameter):

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 namespace him {
@@ -19,7 +21,7 @@ DragPoint polyethylene(double voidFraction, double slip)
     return {voidFraction, slip, 277e-6, 1.149, 1.766e-5};
 }
 
-double stokesDrag(const DragPoint& at)
+double stokesOf(const DragPoint& at)
 {
     return 3 * pi * at.viscosity * at.diameter;
 }
@@ -59,14 +61,47 @@ TEST(DragLaw, namesAllSixAndRefusesAnotherByListingThem)
     }
 }
 
+TEST(DragLaw, ofManySpheresIsThatOfEachToRoundOffAndToTheDigitWhateverStandsBesideIt)
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (const std::string& name : dragLawNames()) {
+        for (const Index rows : {1, 7, 8, 43}) {
+            DragPoints points, turned;
+            for (DragPoints* p : {&points, &turned}) {
+                p->resize(rows);
+                p->density = 1.149;
+                p->viscosity = 1.766e-5;
+            }
+            for (Index row = 0; row < rows; ++row) {
+                points.voidFraction[row] = row == 0 ? 1 : 0.35 + 0.65 * share(random);
+                points.slip[row] = row == 1 ? 0 : std::pow(10, 6 * share(random) - 4);  // Re up to 1e3 and more
+                points.diameter[row] = 1e-3 * share(random) + 1e-5;
+            }
+            turned.voidFraction = points.voidFraction.reverse();
+            turned.slip = points.slip.reverse();
+            turned.diameter = points.diameter.reverse();
+            Scalars beta, turnedBeta;
+            dragOfMany(name)(points, beta);
+            dragOfMany(name)(turned, turnedBeta);
+            ASSERT_EQ(beta.size(), rows);
+            for (Index row = 0; row < rows; ++row) {
+                const double one = makeDragLaw(name)(points.at(row));
+                EXPECT_NEAR(beta[row] / one, 1, 1e-14) << name << " row " << row << " of " << rows;
+                EXPECT_EQ(beta[row], turnedBeta[rows - 1 - row]) << name << " row " << row << " of " << rows;
+            }
+        }
+    }
+}
+
 TEST(DragLaw, ofASingleCreepingSphereIsStokes)
 {
     const DragPoint at = polyethylene(1, 1e-9);
     for (const char* name : {"WenYu", "SchillerNaumann", "Gidaspow", "Beetstra", "KochHill"}) {
-        EXPECT_NEAR(makeDragLaw(name)(at) / stokesDrag(at), 1, 2e-4) << name;
+        EXPECT_NEAR(makeDragLaw(name)(at) / stokesOf(at), 1, 2e-4) << name;
     }
     // Dallavalle's sphere has C_D Re = 4.8^2 = 23.04 where Stokes has 24.
-    EXPECT_NEAR(makeDragLaw("DiFelice")(at) / stokesDrag(at), 23.04 / 24, 1e-3);
+    EXPECT_NEAR(makeDragLaw("DiFelice")(at) / stokesOf(at), 23.04 / 24, 1e-3);
 }
 
 TEST(DragLaw, isFiniteAndContinuousAtZeroSlip)
@@ -173,10 +208,43 @@ TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
 TEST(DragLaw, namesThoseThatHoldWhereAnotherDoesNot)
 {
     using Names = std::vector<std::string>;
-    EXPECT_EQ(dragLawsThatHold(0.38, 100), (Names{"Gidaspow", "KochHill"}));
-    EXPECT_EQ(dragLawsThatHold(0.95, 5000), (Names{"WenYu", "Gidaspow", "DiFelice"}));
-    EXPECT_EQ(dragLawsThatHold(0.99, 0), (Names{"WenYu", "SchillerNaumann", "Gidaspow", "DiFelice", "KochHill"}));
-    EXPECT_TRUE(dragLawsThatHold(0.3, 10).empty());
+    const auto holding = [](double voidFraction, double reynolds) {
+        return dragLawNames(dragLawsThatHold(DragPoint{voidFraction, reynolds / voidFraction, 1, 1, 1}));
+    };
+    EXPECT_EQ(holding(0.38, 100), (Names{"Gidaspow", "KochHill"}));
+    EXPECT_EQ(holding(0.95, 5000), (Names{"WenYu", "Gidaspow", "DiFelice"}));
+    EXPECT_EQ(holding(0.99, 0), (Names{"WenYu", "SchillerNaumann", "Gidaspow", "DiFelice", "KochHill"}));
+    EXPECT_TRUE(holding(0.3, 10).empty());
+}
+
+TEST(DragLaw, ofManySpheresSetsOffNoFloatingPointTrapAtRestOrInPureGas)
+{
+    constexpr int watched = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW;
+    for (const std::string& name : dragLawNames()) {
+        for (const Index rows : {8, 9, 16}) {
+            for (Index special = 0; special < rows; ++special) {
+                for (const double voidFraction : {1.0, 1 + 1e-15, 0.6}) {
+                    DragPoints points;
+                    points.resize(rows);
+                    points.voidFraction.setConstant(0.45);
+                    points.slip.setConstant(0.3);
+                    points.diameter.setConstant(277e-6);
+                    points.density = 1.149;
+                    points.viscosity = 1.766e-5;
+                    points.voidFraction[special] = voidFraction;
+                    points.slip[special] = voidFraction > 0.8 ? 0.3 : 0;
+                    Scalars beta;
+                    std::feclearexcept(FE_ALL_EXCEPT);
+                    dragOfMany(name)(points, beta);
+                    EXPECT_EQ(std::fetestexcept(watched), 0) << name << " row " << special << " of " << rows;
+                    points.slip[special] = 0;
+                    dragOfMany(name)(points, beta);
+                    EXPECT_EQ(std::fetestexcept(watched), 0) << name << " at rest, row " << special << " of " << rows;
+                    EXPECT_TRUE(beta.isFinite().all());
+                }
+            }
+        }
+    }
 }
 
 TEST(DragLaw, saysWhereItHasBeenShownToHold)

@@ -223,7 +223,10 @@ TEST(GasCoupling, saysOnAllRanksHowFarBeyondTheDragLawParticlesAre)
     coupling.collect(dem.mine, gas.result.velocity);
     coupling.handBack(dem.mine, gas.result, 10 * step);
     const double alpha = 1 - 4 * pi / 3 * 8e-9 / cellVolume;
-    EXPECT_NEAR(coupling.summary().voidFractionBeyondDragLaw, alpha, 1e-14);
+    EXPECT_NEAR(coupling.summary().voidFractionsBeyondDragLaw[0], alpha, 1e-14);
+    EXPECT_NEAR(coupling.summary().voidFractionsBeyondDragLaw[1], alpha, 1e-14);
+    EXPECT_EQ(dragLawNames(coupling.summary().othersBeyondDragLaw),
+              (std::vector<std::string>{"WenYu", "Gidaspow", "Beetstra", "DiFelice"}));
     EXPECT_NEAR(coupling.summary().reynoldsBeyondDragLaw, alpha * 100 * std::hypot(0.9, 0.2) * 4e-3 / 1e-3, 1e-10);
 }
 
