@@ -31,21 +31,21 @@ Eigen::MatrixXd secondDifference(Index n, double h, bool periodic)
 
 BoxMesh::BoxMesh(const Box& box, const std::array<Index, 3>& cells, double permittivity, MPI_Comm communicator,
                  const std::array<bool, 3>& periodic)
-    : box_(box), cells_(cells), periodic_(periodic), permittivity_(permittivity), communicator_(communicator)
+    : box_(box),
+      cells_(cells),
+      periodic_(periodic),
+      permittivity_(permittivity),
+      communicator_(communicator),
+      slab_(cells[0], communicator)
 {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         size_[axis] = box.size()[axis] / static_cast<double>(cells[a]);
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(secondDifference(cells[a], size_[axis], periodic[a]));
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+            secondDifference(cells[a], size_[axis], periodic[a]));
         modes_[a] = solver.eigenvectors();
         eigenvalues_[a] = solver.eigenvalues();
     }
-    int rank = 0;
-    int ranks = 1;
-    MPI_Comm_rank(communicator, &rank);
-    MPI_Comm_size(communicator, &ranks);
-    first_ = cells[0] * rank / ranks;
-    last_ = cells[0] * (rank + 1) / ranks;
     potential_.setZero(cells[0] * cells[1] * cells[2]);
     makeArrays();
 }
@@ -69,7 +69,8 @@ void BoxMesh::chargeWall(Index plane, double height, const std::function<double(
         }
         const Vector3 y = 0.5 * size_[1] * Vector3::UnitY();
         const Vector3 z = 0.5 * size_[2] * Vector3::UnitZ();
-        chargedFaces_.push_back({{centre - y - z, centre + y - z, centre + y + z, centre - y + z}, static_cast<std::int32_t>(cell)});
+        chargedFaces_.push_back(
+            {{centre - y - z, centre + y - z, centre + y + z, centre - y + z}, static_cast<std::int32_t>(cell)});
         charges.push_back(density(centre) * size_[1] * size_[2]);
     }
     faceCharge_ = Eigen::Map<const Scalars>(charges.data(), static_cast<Index>(charges.size()));
@@ -81,7 +82,7 @@ void BoxMesh::makeArrays()
     int ranks = 1;
     MPI_Comm_rank(communicator_, &rank);
     MPI_Comm_size(communicator_, &ranks);
-    const Index slab = last_ - first_;
+    const Index slab = slab_.last - slab_.first;
     const Index count = slab * cells_[1] * cells_[2];
     arrays_.centre.resize(count, 3);
     arrays_.volume.setConstant(count, cellVolume());
@@ -164,10 +165,10 @@ void BoxMesh::makeArrays()
 Box BoxMesh::localBounds() const
 {
     Box bounds;
-    if (first_ < last_) {
+    if (slab_.first < slab_.last) {
         bounds = box_;
-        bounds.lower[0] = box_.lower[0] + static_cast<double>(first_) * size_[0];
-        bounds.upper[0] = box_.lower[0] + static_cast<double>(last_) * size_[0];
+        bounds.lower[0] = box_.lower[0] + static_cast<double>(slab_.first) * size_[0];
+        bounds.upper[0] = box_.lower[0] + static_cast<double>(slab_.last) * size_[0];
     }
     return bounds;
 }
@@ -180,26 +181,27 @@ Index BoxMesh::findCell(const Vector3& point) const
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const double cells = (point[axis] - box_.lower[axis]) / size_[axis];
-        const Index begin = axis == 0 ? first_ : 0;
-        const Index end = axis == 0 ? last_ : cells_[a];
+        const Index begin = axis == 0 ? slab_.first : 0;
+        const Index end = axis == 0 ? slab_.last : cells_[a];
         if (!(cells >= static_cast<double>(begin) && cells <= static_cast<double>(end)) || begin == end) {
             return -1;
         }
         indices[a] = std::min(static_cast<Index>(std::floor(cells)), end - 1);
     }
-    return indices[0] - first_ + (last_ - first_) * (indices[1] + cells_[1] * indices[2]);
+    return indices[0] - slab_.first + (slab_.last - slab_.first) * (indices[1] + cells_[1] * indices[2]);
 }
 
 BoxMesh::Indices BoxMesh::indicesOf(Index cell) const
 {
-    const Index slab = last_ - first_;
-    return {first_ + cell % slab, (cell / slab) % cells_[1], cell / (slab * cells_[1])};
+    const Index slab = slab_.last - slab_.first;
+    return {slab_.first + cell % slab, (cell / slab) % cells_[1], cell / (slab * cells_[1])};
 }
 
 Vector3 BoxMesh::cellCentre(Index cell) const
 {
     const Indices indices = indicesOf(cell);
-    const Vector3 cells(static_cast<double>(indices[0]), static_cast<double>(indices[1]), static_cast<double>(indices[2]));
+    const Vector3 cells(static_cast<double>(indices[0]), static_cast<double>(indices[1]),
+                        static_cast<double>(indices[2]));
     return box_.lower + (cells + Vector3::Constant(0.5)).cwiseProduct(size_);
 }
 
@@ -303,6 +305,9 @@ Vector3 BoxMesh::electricField(Index cell) const
     return field;
 }
 
-double BoxMesh::potential(Index cell) const { return at(indicesOf(cell)); }
+double BoxMesh::potential(Index cell) const
+{
+    return at(indicesOf(cell));
+}
 
 }  // namespace him

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/poisson_mesh.hpp"
+#include "tests/support/rank_slab.hpp"
 
 #include <array>
 #include <functional>
@@ -20,7 +21,7 @@ public:
             const std::array<bool, 3>& periodic = {false, false, false});
 
     Box localBounds() const override;
-    Index cellCount() const override { return (last_ - first_) * cells_[1] * cells_[2]; }
+    Index cellCount() const override { return (slab_.last - slab_.first) * cells_[1] * cells_[2]; }
     double largestCellDiagonal() const override { return size_.norm(); }
     Index findCell(const Vector3& point) const override;
     Vector3 cellCentre(Index cell) const override;
@@ -68,10 +69,10 @@ private:
     double permittivity_;
     MPI_Comm communicator_;
     Vector3 size_;
-    Index first_ = 0, last_ = 0;                    ///< this rank's slab along x
-    std::array<Eigen::MatrixXd, 3> modes_;          ///< eigenvectors of -d2/dx2 of each direction
-    std::array<Eigen::VectorXd, 3> eigenvalues_;    ///< [1/m2]
-    Scalars potential_;                             ///< [V], all cells of all ranks
+    RankSlab slab_;                               ///< along x
+    std::array<Eigen::MatrixXd, 3> modes_;        ///< eigenvectors of -d2/dx2 of each direction
+    std::array<Eigen::VectorXd, 3> eigenvalues_;  ///< [1/m2]
+    Scalars potential_;                           ///< [V], all cells of all ranks
     double chargeOnMesh_ = 0;
     MeshArrays arrays_;
     bool matched_ = false;

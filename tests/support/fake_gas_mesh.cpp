@@ -6,24 +6,18 @@
 namespace him {
 
 FakeGasMesh::FakeGasMesh(const Box& box, const std::array<Index, 3>& cells, MPI_Comm communicator)
-    : box_(box), cells_(cells), communicator_(communicator)
+    : box_(box), cells_(cells), communicator_(communicator), slab_(cells[0], communicator)
 {
     for (int axis = 0; axis < 3; ++axis) {
         size_[axis] = box.size()[axis] / static_cast<double>(cells[static_cast<std::size_t>(axis)]);
     }
-    int rank = 0;
-    int ranks = 1;
-    MPI_Comm_rank(communicator, &rank);
-    MPI_Comm_size(communicator, &ranks);
-    first_ = cells[0] * rank / ranks;
-    last_ = cells[0] * (rank + 1) / ranks;
 }
 
 Box FakeGasMesh::localBounds() const
 {
     Box bounds = box_;
-    bounds.lower[0] = box_.lower[0] + static_cast<double>(first_) * size_[0];
-    bounds.upper[0] = box_.lower[0] + static_cast<double>(last_) * size_[0];
+    bounds.lower[0] = box_.lower[0] + static_cast<double>(slab_.first) * size_[0];
+    bounds.upper[0] = box_.lower[0] + static_cast<double>(slab_.last) * size_[0];
     return bounds;
 }
 
@@ -37,7 +31,8 @@ Index FakeGasMesh::findCell(const Vector3& point) const
             return -1;
         }
     }
-    return at[0] < first_ || at[0] >= last_ ? -1 : at[2] + cells_[2] * (at[1] + cells_[1] * (at[0] - first_));
+    return at[0] < slab_.first || at[0] >= slab_.last ? -1
+                                                      : at[2] + cells_[2] * (at[1] + cells_[1] * (at[0] - slab_.first));
 }
 
 Vector3 FakeGasMesh::cellCentre(Index cell) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_coupling/gas/gas_mesh.hpp"
+#include "tests/support/rank_slab.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -16,7 +17,7 @@ public:
     FakeGasMesh(const Box& box, const std::array<Index, 3>& cells, MPI_Comm communicator);
 
     Box localBounds() const override;
-    Index cellCount() const override { return (last_ - first_) * cells_[1] * cells_[2]; }
+    Index cellCount() const override { return (slab_.last - slab_.first) * cells_[1] * cells_[2]; }
     double largestCellDiagonal() const override { return size_.norm(); }
     Index findCell(const Vector3& point) const override;
     Vector3 cellCentre(Index cell) const override;
@@ -25,13 +26,13 @@ public:
     void smooth(Scalars& perVolume, double length) const override;
 
 private:
-    Index wholeIndex(Index cell) const { return cell + first_ * cells_[1] * cells_[2]; }
+    Index wholeIndex(Index cell) const { return cell + slab_.first * cells_[1] * cells_[2]; }
 
     Box box_;
     std::array<Index, 3> cells_;
     MPI_Comm communicator_;
     Vector3 size_;
-    Index first_ = 0, last_ = 0;  ///< this rank's slab along x
+    RankSlab slab_;  ///< along x
 };
 
 }  // namespace him

@@ -4,6 +4,7 @@
 #include "tests/support/collective_throw.hpp"
 #include "tests/support/fake_dem.hpp"
 #include "tests/support/fake_gas_mesh.hpp"
+#include "tests/support/particle_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,30 +57,18 @@ void resize(DemParticles& particles, Index rows)
 /// Spheres of 4 mm that each rank owns a part of, wherever the cells are.
 DemParticles spheres(int count)
 {
-    int rank = 0;
-    int ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0, 1);
-    DemParticles mine;
+    DemParticles all;
+    resize(all, count);
     for (int n = 0; n < count; ++n) {
-        Vector3 place;
-        Vector3 velocity;
+        all.tag[static_cast<std::size_t>(n)] = n + 1;
         for (int axis = 0; axis < 3; ++axis) {
-            place[axis] = box.size()[axis] * share(random);
-            velocity[axis] = share(random) - 0.5;
-        }
-        if (n % ranks == rank) {
-            const Index row = mine.size();
-            resize(mine, row + 1);
-            mine.tag.back() = n + 1;
-            mine.position.row(row) = place.transpose().array();
-            mine.velocity.row(row) = velocity.transpose().array();
+            all.position(n, axis) = box.size()[axis] * share(random);
+            all.velocity(n, axis) = share(random) - 0.5;
         }
     }
-    resize(mine, mine.size());
-    return mine;
+    return dealt(all, MPI_COMM_WORLD);
 }
 
 /// One sphere in the middle of the cell at (12.5, 7.5, 7.5) mm, owned by the last rank.

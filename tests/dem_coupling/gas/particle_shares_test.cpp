@@ -2,6 +2,7 @@
 #include "dem_coupling/gas/particle_shares.hpp"
 
 #include "tests/support/fake_gas_mesh.hpp"
+#include "tests/support/particle_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,35 +19,17 @@ constexpr std::array<bool, 3> noPeriods{false, false, false};
 /// Spheres of which each rank owns a part, wherever the cells are. Their sub-points stay in the box if `clear`.
 DemParticles spheres(int count, bool clear)
 {
-    int rank = 0;
-    int ranks = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> share(0, 1);
-    DemParticles mine;
-    std::vector<Vector3> places;
-    std::vector<double> radii;
+    DemParticles all = emptyParticles(count);
     for (int n = 0; n < count; ++n) {
-        const double radius = 0.1 + 0.2 * share(random);
-        const double margin = clear ? radius : 0;
-        Vector3 place;
+        all.radius[n] = 0.1 + 0.2 * share(random);
+        const double margin = clear ? all.radius[n] : 0;
         for (int axis = 0; axis < 3; ++axis) {
-            place[axis] = box.lower[axis] + margin + share(random) * (box.size()[axis] - 2 * margin);
-        }
-        if (n % ranks == rank) {
-            mine.tag.push_back(n + 1);
-            places.push_back(place);
-            radii.push_back(radius);
+            all.position(n, axis) = box.lower[axis] + margin + share(random) * (box.size()[axis] - 2 * margin);
         }
     }
-    mine.position.resize(static_cast<Index>(places.size()), 3);
-    mine.radius.resize(mine.position.rows());
-    for (std::size_t row = 0; row < places.size(); ++row) {
-        mine.position.row(static_cast<Index>(row)) = places[row].transpose().array();
-        mine.radius[static_cast<Index>(row)] = radii[row];
-    }
-    return mine;
+    return dealt(all, MPI_COMM_WORLD);
 }
 
 double overRanks(double value)
