@@ -109,26 +109,46 @@ void MeshLocator::locate(const Points& positions)
 
 void MeshLocator::deposit(const Scalars& charge, Scalars& cellCharge)
 {
+    cellCharge.resize(mesh_.cellCount());
+    deposit(Eigen::Ref<const Eigen::ArrayXXd>(charge), Eigen::Ref<Eigen::ArrayXXd>(cellCharge));
+}
+
+void MeshLocator::deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell)
+{
+    ofCell.resize(mesh_.cellCount(), ofRow.cols());
+    deposit(Eigen::Ref<const Eigen::ArrayXXd>(ofRow), Eigen::Ref<Eigen::ArrayXXd>(ofCell));
+}
+
+void MeshLocator::deposit(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::Ref<Eigen::ArrayXXd> ofCell)
+{
+    const Index columns = ofRow.cols();
     exchange_.clear(outgoing_);
     for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
         for (const Index row : askedRows_[rank]) {
             const bool taker = owner_[static_cast<std::size_t>(row)] == static_cast<int>(rank);
-            outgoing_[rank].push_back(taker ? charge[row] : 0.0);
+            for (Index k = 0; k < columns; ++k) {
+                outgoing_[rank].push_back(taker ? ofRow(row, k) : 0.0);
+            }
         }
-        incoming_[rank].resize(answeredCells_[rank].size());
+        incoming_[rank].resize(static_cast<std::size_t>(columns) * answeredCells_[rank].size());
     }
     exchange_.answer(outgoing_, incoming_);
 
-    cellCharge.setZero(mesh_.cellCount());
-    for (std::size_t row = 0; row < cell_.size(); ++row) {
-        if (cell_[row] >= 0) {
-            cellCharge[cell_[row]] += charge[static_cast<Index>(row)];
+    ofCell.setZero();
+    for (Index k = 0; k < columns; ++k) {
+        for (std::size_t row = 0; row < cell_.size(); ++row) {
+            if (cell_[row] >= 0) {
+                ofCell(cell_[row], k) += ofRow(static_cast<Index>(row), k);
+            }
         }
     }
     for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
-        for (std::size_t n = 0; n < answeredCells_[rank].size(); ++n) {
-            if (answeredCells_[rank][n] >= 0) {
-                cellCharge[answeredCells_[rank][n]] += incoming_[rank][n];
+        const double* in = incoming_[rank].data();
+        for (const Index cell : answeredCells_[rank]) {
+            for (Index k = 0; k < columns; ++k, ++in) {
+                if (cell >= 0) {
+                    ofCell(cell, k) += *in;
+                }
             }
         }
     }
@@ -170,6 +190,38 @@ void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Point
         }
     }
     takeAnswers(values);
+}
+
+void MeshLocator::gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
+{
+    const Index columns = ofCell.cols();
+    exchange_.clear(outgoing_);
+    for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
+        for (const Index cell : answeredCells_[rank]) {
+            for (Index k = 0; k < columns; ++k) {
+                outgoing_[rank].push_back(cell >= 0 ? ofCell(cell, k) : 0.0);
+            }
+        }
+        incoming_[rank].resize(static_cast<std::size_t>(columns) * askedRows_[rank].size());
+    }
+    exchange_.answer(outgoing_, incoming_);
+    ofRow.resize(static_cast<Index>(owner_.size()), columns);
+    for (Index k = 0; k < columns; ++k) {
+        for (std::size_t row = 0; row < cell_.size(); ++row) {
+            ofRow(static_cast<Index>(row), k) = cell_[row] >= 0 ? ofCell(cell_[row], k) : 0.0;
+        }
+    }
+    for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
+        const double* in = incoming_[rank].data();
+        for (const Index row : askedRows_[rank]) {
+            const bool answers = owner_[static_cast<std::size_t>(row)] == static_cast<int>(rank);
+            for (Index k = 0; k < columns; ++k, ++in) {
+                if (answers) {
+                    ofRow(row, k) = *in;
+                }
+            }
+        }
+    }
 }
 
 void MeshLocator::gather(const Points& positions, const std::function<Vector3(Index, const Vector3&)>& valueAt,

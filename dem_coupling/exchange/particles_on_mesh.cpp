@@ -8,61 +8,80 @@ namespace him {
 
 namespace {
 
-constexpr std::size_t payload = 5;      // position, charge, cell
-constexpr std::size_t ownPayload = 6;   // and the tag
+constexpr std::size_t payload = 5;     // position, charge, cell
+constexpr std::size_t ownPayload = 6;  // and the tag
 
 }  // namespace
 
-void ParticlesOnMesh::distribute(const MeshLocator& locator, const DemParticles& particles, MeshHalo& halo, double reach,
-                                 CloudSources& sources)
+void ParticlesOnMesh::distribute(const MeshLocator& locator, const DemParticles& particles, MeshHalo& halo,
+                                 double reach, CloudSources& sources)
 {
     SparseExchange& exchange = halo.exchange();
     const auto ranks = static_cast<std::size_t>(exchange.ranks());
+    const auto self = static_cast<std::size_t>(exchange.rank());
     sentRows_.resize(ranks);
     targetOf_.resize(ranks);
     exchange.clear(outgoing_);
     for (auto& rows : sentRows_) {
         rows.clear();
     }
+    const auto placeInBox = [&](Index row) -> Vector3 {
+        const Vector3 place = particles.position.row(row).matrix().transpose();
+        return place + locator.shiftIntoBox(place);
+    };
+    // Nearly all particles are in cells of their own rank: those go into no message.
     for (Index row = 0; row < particles.size(); ++row) {
         if (!locator.inMesh(row)) {
             continue;
         }
         const auto rank = static_cast<std::size_t>(locator.owner(row));
-        const Vector3 place = particles.position.row(row).matrix().transpose();
-        const Vector3 inBox = place + locator.shiftIntoBox(place);
         sentRows_[rank].push_back(row);
-        outgoing_[rank].insert(outgoing_[rank].end(),
-                               {inBox[0], inBox[1], inBox[2], particles.charge[row], static_cast<double>(locator.cell(row)),
-                                static_cast<double>(particles.tag[static_cast<std::size_t>(row)])});
+        if (rank != self) {
+            const Vector3 place = placeInBox(row);
+            outgoing_[rank].insert(outgoing_[rank].end(),
+                                   {place[0], place[1], place[2], particles.charge[row],
+                                    static_cast<double>(locator.cell(row)),
+                                    static_cast<double>(particles.tag[static_cast<std::size_t>(row)])});
+        }
     }
     exchange.exchange(outgoing_, incoming_);
 
-    // Sorted by cell, within a cell as they came.
-    const Index cells = halo.mesh().ownCells;
-    std::vector<Index> next(static_cast<std::size_t>(cells) + 1, 0);
-    Index targets = 0;
+    // Sorted by cell, within a cell by rank, of a rank as they came.
+    nextOfCell_.assign(static_cast<std::size_t>(halo.mesh().ownCells) + 1, 0);
+    auto targets = static_cast<Index>(sentRows_[self].size());
+    for (const Index row : sentRows_[self]) {
+        ++nextOfCell_[static_cast<std::size_t>(locator.cell(row)) + 1];
+    }
     for (const auto& buffer : incoming_) {
         for (std::size_t at = 0; at < buffer.size(); at += ownPayload, ++targets) {
-            ++next[static_cast<std::size_t>(buffer[at + 4]) + 1];
+            ++nextOfCell_[static_cast<std::size_t>(buffer[at + 4]) + 1];
         }
     }
-    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::partial_sum(nextOfCell_.begin(), nextOfCell_.end(), nextOfCell_.begin());
     sources.targets = targets;
     sources.position.resize(targets, 3);
     sources.charge.resize(targets);
     sources.cell.resize(static_cast<std::size_t>(targets));
     tags_.resize(static_cast<std::size_t>(targets));
+    const auto take = [&](const Vector3& place, double charge, Index cell, int tag) {
+        const Index target = nextOfCell_[static_cast<std::size_t>(cell)]++;
+        sources.position.row(target) = place.transpose().array();
+        sources.charge[target] = charge;
+        sources.cell[static_cast<std::size_t>(target)] = static_cast<std::int32_t>(cell);
+        tags_[static_cast<std::size_t>(target)] = tag;
+        return target;
+    };
     for (std::size_t rank = 0; rank < ranks; ++rank) {
         targetOf_[rank].clear();
+        if (rank == self) {
+            for (const Index row : sentRows_[self]) {
+                targetOf_[self].push_back(take(placeInBox(row), particles.charge[row], locator.cell(row),
+                                               particles.tag[static_cast<std::size_t>(row)]));
+            }
+        }
         for (std::size_t at = 0; at < incoming_[rank].size(); at += ownPayload) {
             const double* in = incoming_[rank].data() + at;
-            const Index target = next[static_cast<std::size_t>(in[4])]++;
-            sources.position.row(target) << in[0], in[1], in[2];
-            sources.charge[target] = in[3];
-            sources.cell[static_cast<std::size_t>(target)] = static_cast<std::int32_t>(in[4]);
-            tags_[static_cast<std::size_t>(target)] = static_cast<int>(in[5]);
-            targetOf_[rank].push_back(target);
+            targetOf_[rank].push_back(take(Vector3(in), in[3], static_cast<Index>(in[4]), static_cast<int>(in[5])));
         }
     }
     addCopies(halo, reach, sources);
@@ -107,24 +126,36 @@ void ParticlesOnMesh::addCopies(MeshHalo& halo, double reach, CloudSources& sour
 
 void ParticlesOnMesh::bringBack(const Eigen::ArrayXXd& atTargets, Eigen::ArrayXXd& atRows, SparseExchange& exchange)
 {
-    const auto columns = static_cast<std::size_t>(atTargets.cols());
+    const Index columns = atTargets.cols();
+    const auto self = static_cast<std::size_t>(exchange.rank());
     exchange.clear(outgoing_);
     exchange.clear(incoming_);
     for (std::size_t rank = 0; rank < targetOf_.size(); ++rank) {
+        if (rank == self) {
+            continue;
+        }
         for (const Index target : targetOf_[rank]) {
-            for (std::size_t k = 0; k < columns; ++k) {
-                outgoing_[rank].push_back(atTargets(target, static_cast<Index>(k)));
+            for (Index k = 0; k < columns; ++k) {
+                outgoing_[rank].push_back(atTargets(target, k));
             }
         }
-        incoming_[rank].resize(columns * sentRows_[rank].size());
+        incoming_[rank].resize(static_cast<std::size_t>(columns) * sentRows_[rank].size());
     }
     exchange.answer(outgoing_, incoming_);
     atRows.setZero();
+    for (Index k = 0; k < columns; ++k) {
+        for (std::size_t n = 0; n < sentRows_[self].size(); ++n) {
+            atRows(sentRows_[self][n], k) = atTargets(targetOf_[self][n], k);
+        }
+    }
     for (std::size_t rank = 0; rank < sentRows_.size(); ++rank) {
+        if (rank == self) {
+            continue;
+        }
         const double* in = incoming_[rank].data();
         for (const Index row : sentRows_[rank]) {
-            for (std::size_t k = 0; k < columns; ++k) {
-                atRows(row, static_cast<Index>(k)) = *in++;
+            for (Index k = 0; k < columns; ++k) {
+                atRows(row, k) = *in++;
             }
         }
     }

@@ -28,8 +28,9 @@ private:
     void addCopies(MeshHalo& halo, double reach, CloudSources& sources);
 
     std::vector<int> tags_;
-    std::vector<std::vector<Index>> sentRows_;      ///< rows that each rank got
-    std::vector<std::vector<Index>> targetOf_;      ///< target that what each rank sent became
+    std::vector<std::vector<Index>> sentRows_;  ///< rows that each rank got
+    std::vector<std::vector<Index>> targetOf_;  ///< target that what each rank sent became
+    std::vector<Index> nextOfCell_;             ///< where the next target of each cell goes
     SparseExchange::Buffers outgoing_, incoming_;
 };
 

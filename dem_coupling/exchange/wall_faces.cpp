@@ -108,7 +108,6 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
     MPI_Allgatherv(own.data(), count, MPI_DOUBLE, data.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator);
 
     double largest = 0;
-    std::vector<double> areas;
     for (std::size_t rank = 0; rank < ranks; ++rank) {
         firstOfRank_.push_back(static_cast<Index>(faces_.size()));
         const double* in = data.data() + starts[rank];
@@ -130,30 +129,41 @@ WallFaces::WallFaces(const std::vector<WallFacePolygon>& mine, double reach, MPI
             for (const Vector3& corner : face.corners) {
                 largest = std::max(largest, (corner - centre).norm());
             }
+            Box box;
+            for (const Vector3& corner : face.corners) {
+                box.extend(corner);
+            }
+            candidates_.push_back({box, face.wall, fillsBox(face.corners, 0.5 * normal.norm(), box)});
             centres_.push_back(centre);
-            areas.push_back(0.5 * normal.norm());
             normals_.push_back(normal.normalized());
             faces_.push_back(std::move(face));
         }
     }
     firstOfRank_.push_back(static_cast<Index>(faces_.size()));
 
-    binSize_ = largest + reach;  // a handful of faces in each
-    for (std::size_t n = 0; n < faces_.size(); ++n) {
-        Box box;
-        for (const Vector3& corner : faces_[n].corners) {
-            box.extend(corner);
-        }
-        const bool fills = fillsBox(faces_[n].corners, areas[n], box);
-        const Vector3 margin = Vector3::Constant(reach * (1 + sameDistance));
+    layBins(largest);
+}
+
+void WallFaces::layBins(double largest)
+{
+    binSize_ = largest + reach_;  // a handful of faces in each
+    const Vector3 margin = Vector3::Constant(reach_ * (1 + sameDistance));
+    std::unordered_map<Bin, std::vector<std::int32_t>, BinHash> facesOfBin;
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+        const Box& box = candidates_[face].box;
         const Bin low = binOf(box.lower - margin), high = binOf(box.upper + margin);
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
             for (std::int64_t y = low[1]; y <= high[1]; ++y) {
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-                    bins_[{x, y, z}].push_back({box, static_cast<Index>(n), faces_[n].wall, fills});
+                    facesOfBin[{x, y, z}].push_back(static_cast<std::int32_t>(face));
                 }
             }
         }
+    }
+    for (const auto& bin : facesOfBin) {
+        const auto first = static_cast<std::uint32_t>(binFaces_.size());
+        binFaces_.insert(binFaces_.end(), bin.second.begin(), bin.second.end());
+        bins_[bin.first] = {first, static_cast<std::uint32_t>(binFaces_.size())};
     }
 }
 
@@ -182,7 +192,8 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
     }
     const double tolerance = sameDistance * (reach_ + binSize_);
     constexpr double never = std::numeric_limits<double>::infinity();
-    const auto boxDistance = [&](const Candidate& candidate) {
+    const auto boxDistance = [&](Index face) {
+        const Candidate& candidate = candidates_[static_cast<std::size_t>(face)];
         return serves(candidate.wall, wall) ? squaredDistance(point, candidate.box) : never;
     };
     // Whether a face whose box is so far away can still be the one.
@@ -190,9 +201,9 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
         const double useful = tolerance + (best.face < 0 ? reach_ : std::min(reach_, best.distance + tolerance));
         return squared <= useful * useful;
     };
-    const auto consider = [&](const Candidate& candidate, double squared) {
-        const Index face = candidate.face;
-        const double away = candidate.fillsBox ? std::sqrt(squared) : distance(point, face);
+    const auto consider = [&](Index face, double squared) {
+        const double away =
+            candidates_[static_cast<std::size_t>(face)].fillsBox ? std::sqrt(squared) : distance(point, face);
         if (away > reach_) {
             return;
         }
@@ -204,26 +215,26 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
     };
     // No face is nearer than its box. The face of the nearest box is nearly always the one, and nearly always rules out the rest.
     double least = never, second = never;
-    const Candidate* first = nullptr;
-    for (const Candidate& candidate : bin->second) {
-        const double squared = boxDistance(candidate);
+    Index first = -1;
+    for (std::uint32_t n = bin->second.first; n < bin->second.end; ++n) {
+        const double squared = boxDistance(binFaces_[n]);
         if (squared < least) {
             second = least;
             least = squared;
-            first = &candidate;
+            first = binFaces_[n];
         } else {
             second = std::min(second, squared);
         }
     }
-    if (!first || !isUseful(least)) {
+    if (first < 0 || !isUseful(least)) {
         return best;
     }
-    consider(*first, least);
+    consider(first, least);
     if (isUseful(second)) {
-        for (const Candidate& candidate : bin->second) {
-            const double squared = boxDistance(candidate);
-            if (&candidate != first && isUseful(squared)) {
-                consider(candidate, squared);
+        for (std::uint32_t n = bin->second.first; n < bin->second.end; ++n) {
+            const double squared = boxDistance(binFaces_[n]);
+            if (binFaces_[n] != first && isUseful(squared)) {
+                consider(binFaces_[n], squared);
             }
         }
     }

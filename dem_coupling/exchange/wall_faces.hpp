@@ -63,13 +63,17 @@ private:
             return mixed;
         }
     };
-    /// What find() asks every face of a bin first, side by side in memory.
+    /// What find() asks of a face first.
     struct Candidate {
         Box box;  ///< around the corners
-        Index face;
         int wall;
         bool fillsBox;  ///< a rectangle along the axes: as far as its box
     };
+    /// A bin's part of binFaces_.
+    struct Range {
+        std::uint32_t first = 0, end = 0;
+    };
+    void layBins(double largest);
     Bin binOf(const Vector3& point) const;
     double distance(const Vector3& point, Index face) const;
     static bool serves(int wallOfFace, int wall) { return wall == anyWall || wallOfFace == wall; }
@@ -79,8 +83,11 @@ private:
     double binSize_ = 1;  ///< [m]
     std::vector<WallFacePolygon> faces_;
     std::vector<Vector3> centres_, normals_;
-    std::vector<Index> firstOfRank_;                                 ///< one more than ranks
-    std::unordered_map<Bin, std::vector<Candidate>, BinHash> bins_;  ///< faces whose reach touches a bin
+    std::vector<Index> firstOfRank_;  ///< one more than ranks
+    // Small, because contacts come in no order and a gas step has driven all this out of the cache.
+    std::vector<Candidate> candidates_;   ///< of every face
+    std::vector<std::int32_t> binFaces_;  ///< faces whose reach touches a bin, bin by bin
+    std::unordered_map<Bin, Range, BinHash> bins_;
     SparseExchange::Buffers outgoing_, incoming_;
 };
 

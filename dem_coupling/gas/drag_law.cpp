@@ -62,20 +62,18 @@ template <double (*law)(const DragPoint&)> void ofMany(const DragPoints& points,
 
 struct Entry {
     const char* name;
-    double (*law)(const DragPoint&);
     DragOfMany ofMany;
     DragLawRange holds;
     const char* range;
 };
 constexpr std::array<Entry, 6> laws{{
-    {"WenYu", &wenYuDrag, &wenYuDragOfMany, &wenYuHolds, "void fraction from 0.4, Re up to 2e5"},
-    {"SchillerNaumann", &schillerNaumannDrag, &ofMany<schillerNaumannDrag>, &schillerNaumannHolds,
-     "void fraction from 0.98, Re up to 2e5"},
-    {"Gidaspow", &gidaspowDrag, &ofMany<gidaspowDrag>, &gidaspowHolds,
+    {"WenYu", &wenYuDragOfMany, &wenYuHolds, "void fraction from 0.4, Re up to 2e5"},
+    {"SchillerNaumann", &ofMany<schillerNaumannDrag>, &schillerNaumannHolds, "void fraction from 0.98, Re up to 2e5"},
+    {"Gidaspow", &ofMany<gidaspowDrag>, &gidaspowHolds,
      "void fraction from 0.36, Re/(1 - void fraction) up to 2500 below void fraction 0.8, Re up to 2e5 above"},
-    {"Beetstra", &beetstraDrag, &ofMany<beetstraDrag>, &beetstraHolds, "void fraction 0.4 to 0.9, Re up to 1000"},
-    {"DiFelice", &diFeliceDrag, &ofMany<diFeliceDrag>, &diFeliceHolds, "void fraction from 0.4, Re up to 1e4"},
-    {"KochHill", &kochHillDrag, &ofMany<kochHillDrag>, &kochHillHolds, "void fraction from 0.36, Re up to 120"},
+    {"Beetstra", &ofMany<beetstraDrag>, &beetstraHolds, "void fraction 0.4 to 0.9, Re up to 1000"},
+    {"DiFelice", &ofMany<diFeliceDrag>, &diFeliceHolds, "void fraction from 0.4, Re up to 1e4"},
+    {"KochHill", &ofMany<kochHillDrag>, &kochHillHolds, "void fraction from 0.36, Re up to 120"},
 }};
 
 const Entry& entryOf(const std::string& name)
@@ -93,13 +91,6 @@ const Entry& entryOf(const std::string& name)
 
 }  // namespace
 
-void DragPoints::resize(Index rows)
-{
-    voidFraction.resize(rows);
-    slip.resize(rows);
-    diameter.resize(rows);
-}
-
 std::vector<std::string> dragLawNames()
 {
     std::vector<std::string> names;
@@ -107,11 +98,6 @@ std::vector<std::string> dragLawNames()
         names.emplace_back(law.name);
     }
     return names;
-}
-
-DragLaw makeDragLaw(const std::string& name)
-{
-    return entryOf(name).law;
 }
 
 DragOfMany dragOfMany(const std::string& name)

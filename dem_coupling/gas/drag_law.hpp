@@ -5,7 +5,6 @@
 #include "electrostatics/types.hpp"
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,9 +25,6 @@ struct DragPoint {
     double viscosity = 0;     ///< of the gas, dynamic [Pa s]
 };
 
-/// beta of one sphere [kg/s], model A. Finite and above zero at slip 0, where it is the limit.
-using DragLaw = std::function<double(const DragPoint&)>;
-
 /// What a drag law looks at of many spheres in one gas, one row for each.
 struct DragPoints {
     Scalars voidFraction;  ///< [-]
@@ -37,13 +33,12 @@ struct DragPoints {
     double density = 0;    ///< [kg/m3]
     double viscosity = 0;  ///< [Pa s]
 
-    void resize(Index rows);
     Index rows() const { return slip.size(); }
     DragPoint at(Index row) const { return {voidFraction[row], slip[row], diameter[row], density, viscosity}; }
 };
 
-/// beta of each [kg/s]: within some units of round-off what the law gives for one; on one processor the same digits in any order of
-/// the spheres. Raises no floating point exception at slip 0 or void fraction 1.
+/// beta of each sphere [kg/s], model A. Finite and above zero at slip 0, where it is the limit. Within some units of round-off what the
+/// law gives for one, on one processor the same digits in any order of the spheres. Raises no floating point exception at slip 0 or void fraction 1.
 using DragOfMany = void (*)(const DragPoints& points, Scalars& beta);
 /// WenYu eight at a time, by the processor's vectors. Laws that take powers on one side of a condition only are left out: in a vector
 /// the other side is computed as well, of zeros, and OpenFOAM traps what divides by zero.
@@ -52,14 +47,12 @@ void wenYuDragOfMany(const DragPoints& points, Scalars& beta);
 /// Names of all laws, in the order of the documentation.
 std::vector<std::string> dragLawNames();
 /// Throws std::invalid_argument that lists the known names.
-DragLaw makeDragLaw(const std::string& name);
-/// The same law for many spheres at once. Throws as makeDragLaw() does.
 DragOfMany dragOfMany(const std::string& name);
 
 /// Whether a law has been shown to hold somewhere, by measurements or simulations that its source rests on.
 using DragLawRange = bool (*)(const DragPoint&);
 
-/// That of a law by name. Throws as makeDragLaw() does.
+/// That of a law by name. Throws as dragOfMany() does.
 DragLawRange dragLawRange(const std::string& name);
 /// The same in words, for the log.
 std::string dragLawRangeInWords(const std::string& name);

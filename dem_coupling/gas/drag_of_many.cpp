@@ -22,8 +22,9 @@ namespace {
 /// Spheres that are computed together. All go through the same vector code, so that a sphere's neighbours do not change its digits.
 constexpr Index together = 8;
 
-template <class Law>
-inline __attribute__((always_inline)) void inEights(const DragPoints& points, Scalars& beta, Law law)
+}  // namespace
+
+HIM_CLONES void wenYuDragOfMany(const DragPoints& points, Scalars& beta)
 {
     const Index rows = points.rows();
     beta.resize(rows);
@@ -45,17 +46,10 @@ inline __attribute__((always_inline)) void inEights(const DragPoints& points, Sc
             diameter = lastDiameter;
         }
         for (Index n = 0; n < together; ++n) {
-            found[n] = law(DragPoint{voidFraction[n], slip[n], diameter[n], points.density, points.viscosity});
+            found[n] = wenYuDrag({voidFraction[n], slip[n], diameter[n], points.density, points.viscosity});
         }
         std::copy_n(found, count, beta.data() + row);
     }
-}
-
-}  // namespace
-
-HIM_CLONES void wenYuDragOfMany(const DragPoints& points, Scalars& beta)
-{
-    inEights(points, beta, [](const DragPoint& at) { return wenYuDrag(at); });
 }
 
 }  // namespace him

@@ -50,40 +50,31 @@ GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& s
     sources_.owed.setZero(mesh_.cellCount(), 3);
 }
 
-void GasCoupling::toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume)
+void GasCoupling::smoothColumns(Eigen::ArrayXXd& ofCell)
 {
-    shares_.deposit(ofRow, cell_);
-    cell_ /= volume_;
-    if (settings_.voidFraction == VoidFractionModel::smoothed) {
-        mesh_.smooth(cell_, settings_.smoothingLength);
+    if (settings_.voidFraction != VoidFractionModel::smoothed) {
+        return;
     }
-    perVolume = cell_;
+    for (Index k = 0; k < ofCell.cols(); ++k) {
+        smoothed_ = ofCell.col(k);
+        mesh_.smooth(smoothed_, settings_.smoothingLength);
+        ofCell.col(k) = smoothed_;
+    }
 }
 
-void GasCoupling::toRows(const Points& ofCell, Points& ofRow)
+void GasCoupling::toCells(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& perVolume)
 {
-    const Points* source = &ofCell;
-    if (settings_.voidFraction == VoidFractionModel::smoothed) {
-        // The adjoint of the deposit, so that a particle gets what the gas gives for it.
-        smoothed_ = ofCell;
-        for (int axis = 0; axis < 3; ++axis) {
-            cell_ = smoothed_.col(axis);
-            mesh_.smooth(cell_, settings_.smoothingLength);
-            smoothed_.col(axis) = cell_;
-        }
-        source = &smoothed_;
-    }
-    shares_.gather([source](Index cell) { return Vector3(source->row(cell).matrix().transpose()); }, ofRow);
+    shares_.deposit(ofRow, perVolume);
+    perVolume.colwise() /= volume_;
+    smoothColumns(perVolume);
 }
 
-void GasCoupling::toRows(const Scalars& ofCell, Scalars& ofRow)
+void GasCoupling::toRows(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
 {
-    cell_ = ofCell;
-    if (settings_.voidFraction == VoidFractionModel::smoothed) {
-        mesh_.smooth(cell_, settings_.smoothingLength);
-    }
-    shares_.gather([this](Index cell) { return Vector3(cell_[cell], 0, 0); }, gathered_);
-    ofRow = gathered_.col(0);
+    // The adjoint of the deposit, so that a particle gets what the gas gives for it.
+    smoothedCells_ = ofCell;
+    smoothColumns(smoothedCells_);
+    shares_.gather(smoothedCells_, ofRow);
 }
 
 void GasCoupling::begin(const DemParticles& particles)
@@ -94,8 +85,11 @@ void GasCoupling::begin(const DemParticles& particles)
 void GasCoupling::collect(const DemParticles& particles, const Points& velocity)
 {
     layVolumes(particles);
-    layDrag(particles, velocity);
-    layOwed();
+    findDrag(particles, velocity);
+    dem_.gasImpulse(given_, lastDuration_, owed_);
+    owed_ = given_ - owed_;
+    laySources(particles, &owed_);
+    settleOwed();
 }
 
 void GasCoupling::resume(const DemParticles& particles, const GasResult& result, double duration, const Vector3& ahead)
@@ -106,7 +100,8 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
         books_.given = books_.ahead = ahead;
         return;
     }
-    layDrag(particles, result.velocity);
+    findDrag(particles, result.velocity);
+    laySources(particles, nullptr);
     handBack(particles, result, duration);
     books_.given = books_.ahead = books_.promised;
 }
@@ -114,7 +109,9 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
 void GasCoupling::layVolumes(const DemParticles& particles)
 {
     shares_.locate(particles);
-    toCells(sphereVolume(particles.radius), sources_.voidFraction);
+    ofRows_ = sphereVolume(particles.radius);
+    toCells(ofRows_, ofCells_);
+    sources_.voidFraction = ofCells_.col(0);
 
     // Sums: solid volume, particles outside, cells and volume below the bound, mass, its moments, momentum.
     std::array<double, 11> sums{};
@@ -184,16 +181,18 @@ void GasCoupling::refuseOutside(const DemParticles& particles) const
     throw std::runtime_error(text.str());
 }
 
-void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
+void GasCoupling::findDrag(const DemParticles& particles, const Points& velocity)
 {
-    toRows(velocity, velocityAtRow_);
+    ofCells_.resize(volume_.size(), 4);
+    ofCells_.leftCols(3) = velocity;
+    ofCells_.col(3) = sources_.voidFraction;
+    toRows(ofCells_, ofRows_);
     if (profile_) {
-        findDeviations(particles, velocity);
-        velocityAtRow_ += deviation_;
+        findDeviations(particles);
+        ofRows_.leftCols(3) += deviation_;
     }
-    dragPoints_.resize(particles.size());
-    toRows(sources_.voidFraction, dragPoints_.voidFraction);
-    dragPoints_.slip = (velocityAtRow_ - particles.velocity).square().rowwise().sum().sqrt();
+    dragPoints_.voidFraction = ofRows_.col(3);
+    dragPoints_.slip = (ofRows_.leftCols(3) - particles.velocity).square().rowwise().sum().sqrt();
     dragPoints_.diameter = 2 * particles.radius;
     if (shares_.rowsOutside() > 0) {
         for (Index row = 0; row < particles.size(); ++row) {
@@ -224,32 +223,43 @@ void GasCoupling::layDrag(const DemParticles& particles, const Points& velocity)
         forces_.drag[row] =
             settings_.pressure == PressureModel::modelB ? dragOfModelB(beta_[row], point.voidFraction) : beta_[row];
     }
-    toCells(forces_.drag, sources_.drag);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (profile_) {
-            toCells(forces_.drag * (particles.velocity.col(axis) - deviation_.col(axis)),
-                    sources_.dragMomentum.col(axis));
-        } else {
-            toCells(forces_.drag * particles.velocity.col(axis), sources_.dragMomentum.col(axis));
-        }
-    }
 }
 
-void GasCoupling::findDeviations(const DemParticles& particles, const Points& velocity)
+void GasCoupling::findDeviations(const DemParticles& particles)
 {
-    // Of what was gathered: toRows() has left the smoothed velocities there.
-    profile_->update(settings_.voidFraction == VoidFractionModel::smoothed ? smoothed_ : velocity);
+    profile_->update(smoothedCells_.leftCols(3));
     shares_.gather(
         particles, [this](Index cell, const Vector3& point) { return profile_->deviation(cell, point); }, deviation_);
 }
 
-void GasCoupling::layOwed()
+void GasCoupling::laySources(const DemParticles& particles, const Points* owed)
 {
-    dem_.gasImpulse(given_, lastDuration_, promised_);
+    ofRows_.resize(particles.size(), owed ? 7 : 4);
+    ofRows_.col(0) = forces_.drag;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto velocity = particles.velocity.col(axis);
+        if (profile_) {
+            ofRows_.col(1 + axis) = forces_.drag * (velocity - deviation_.col(axis));
+        } else {
+            ofRows_.col(1 + axis) = forces_.drag * velocity;
+        }
+    }
+    if (owed) {
+        ofRows_.rightCols(3) = *owed;
+    }
+    toCells(ofRows_, ofCells_);
+    sources_.drag = ofCells_.col(0);
+    sources_.dragMomentum = ofCells_.middleCols(1, 3);
+    if (owed) {
+        sources_.owed = ofCells_.rightCols(3);
+    }
+}
+
+void GasCoupling::settleOwed()
+{
     const Vector3 takenOut = dem_.gasImpulseTakenOut();
     std::array<double, 7> sums{};
     for (int axis = 0; axis < 3; ++axis) {
-        toCells(given_.col(axis) - promised_.col(axis), sources_.owed.col(axis));
         const auto column = static_cast<std::size_t>(axis);
         sums[column] = given_.col(axis).sum() + takenOut[axis];
         sums[3 + column] = (sources_.owed.col(axis) * volume_).sum();
@@ -270,10 +280,10 @@ void GasCoupling::layOwed()
     }
 }
 
-void GasCoupling::addUnpaidForces(const DemParticles& particles, const GasResult& result)
+void GasCoupling::addUnpaidForces(const DemParticles& particles)
 {
-    toRows(result.acceleration, gathered_);
-    toRows(result.vorticity, vorticityAtRow_);
+    const auto acceleration = ofRows_.rightCols(6).leftCols(3);
+    const auto vorticity = ofRows_.rightCols(3);
     beyondLift_ = 0;
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
@@ -281,39 +291,47 @@ void GasCoupling::addUnpaidForces(const DemParticles& particles, const GasResult
         }
         const double displaced = settings_.density * sphereVolume(particles.radius[row]);
         forces_.addedMass[row] = settings_.virtualMass * displaced;
-        forces_.unpaid.row(row) = forces_.addedMass[row] * gathered_.row(row);
+        forces_.unpaid.row(row) = forces_.addedMass[row] * acceleration.row(row);
         if (settings_.saffmanLift) {
             const Vector3 slip = (forces_.velocity.row(row) - particles.velocity.row(row)).matrix().transpose();
-            const Vector3 vorticity = vorticityAtRow_.row(row).matrix().transpose();
+            const Vector3 curl = vorticity.row(row).matrix().transpose();
             const double diameter = 2 * particles.radius[row];
             forces_.unpaid.row(row) +=
-                saffmanLift(settings_.density, settings_.viscosity, diameter, slip, vorticity).transpose().array();
-            beyondLift_ += !saffmanHolds(settings_.density, settings_.viscosity, diameter, slip, vorticity);
+                saffmanLift(settings_.density, settings_.viscosity, diameter, slip, curl).transpose().array();
+            beyondLift_ += !saffmanHolds(settings_.density, settings_.viscosity, diameter, slip, curl);
         }
     }
 }
 
 void GasCoupling::handBack(const DemParticles& particles, const GasResult& result, double duration)
 {
-    toRows(result.velocity, forces_.velocity);
+    const bool feelsPressure = settings_.pressure == PressureModel::modelA;
+    ofCells_.resize(volume_.size(), 3 + (feelsPressure ? 3 : 0) + (settings_.needsGasMotion() ? 6 : 0));
+    ofCells_.leftCols(3) = result.velocity;
+    if (feelsPressure) {
+        ofCells_.middleCols(3, 3) = result.pressureForce;
+    }
+    if (settings_.needsGasMotion()) {
+        ofCells_.rightCols(6).leftCols(3) = result.acceleration;
+        ofCells_.rightCols(3) = result.vorticity;
+    }
+    toRows(ofCells_, ofRows_);
+    forces_.velocity = ofRows_.leftCols(3);
     if (profile_) {
         forces_.velocity += deviation_;
-    }
-    if (settings_.pressure == PressureModel::modelA) {
-        toRows(result.pressureForce, gathered_);
     }
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
             continue;
         }
         const double volume = sphereVolume(particles.radius[row]);
-        if (settings_.pressure == PressureModel::modelA) {
-            forces_.force.row(row) = volume * gathered_.row(row);
+        if (feelsPressure) {
+            forces_.force.row(row) = volume * ofRows_.row(row).segment<3>(3);
         }
         forces_.buoyancy.row(row) = -settings_.density * volume * settings_.gravity.transpose().array();
     }
     if (settings_.needsGasMotion()) {
-        addUnpaidForces(particles, result);
+        addUnpaidForces(particles);
     }
     dem_.setGasForces(forces_);
     lastDuration_ = duration;

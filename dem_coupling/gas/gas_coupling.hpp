@@ -101,16 +101,22 @@ private:
     void layVolumes(const DemParticles& particles);
     /// Throws std::runtime_error with a particle that is outside the mesh. Collective.
     [[noreturn]] void refuseOutside(const DemParticles& particles) const;
-    void layDrag(const DemParticles& particles, const Points& velocity);
-    /// Deviation of the gas velocity at the particles from that of their cells, by the profile. After toRows(velocity, ...).
-    void findDeviations(const DemParticles& particles, const Points& velocity);
-    void layOwed();
-    /// Lift and what the acceleration of the gas does to a particle, from where velocities and results are gathered.
-    void addUnpaidForces(const DemParticles& particles, const GasResult& result);
-    /// Sum over particles per volume of cells, and the mean of cells at particles, by the void-fraction model. Collective.
-    void toCells(const Scalars& ofRow, Eigen::Ref<Scalars> perVolume);
-    void toRows(const Points& ofCell, Points& ofRow);
-    void toRows(const Scalars& ofCell, Scalars& ofRow);
+    /// beta of every particle and where the law has not been shown to hold.
+    void findDrag(const DemParticles& particles, const Points& velocity);
+    /// Deviation of the gas velocity at the particles from that of their cells, by the profile. After toRows() of the velocity.
+    void findDeviations(const DemParticles& particles);
+    /// Lays drag and its momentum on the mesh, and what is owed to it where there is something. After findDrag().
+    void laySources(const DemParticles& particles, const Points* owed);
+    /// Books what the particles got, and spreads what the deposit does not know of.
+    void settleOwed();
+    /// Lift and what the acceleration of the gas does to a particle; ofRows_ ends with acceleration and vorticity.
+    void addUnpaidForces(const DemParticles& particles);
+    /// The void-fraction model's spreading of every column, per volume or value of the cells.
+    void smoothColumns(Eigen::ArrayXXd& ofCell);
+    /// Sums over particles per volume of cells, and the means of cells at particles, by the void-fraction model; one column for
+    /// each value. Collective.
+    void toCells(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& perVolume);
+    void toRows(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow);
 
     DemPort& dem_;
     const GasMesh& mesh_;
@@ -128,10 +134,12 @@ private:
     Index beyondDragLaw_ = 0, beyondLift_ = 0;  ///< of this rank
     std::array<double, 3> reachedBeyond_{};     ///< -smallest and largest void fraction, largest Reynolds number
     DragLawSet holdBeyond_ = 0;
-    Scalars volume_, cell_;
+    Scalars volume_;  ///< of the cells [m3]
+    Scalars smoothed_;
+    Eigen::ArrayXXd ofCells_, smoothedCells_, ofRows_;  ///< values on the way, one column each
     DragPoints dragPoints_;
     Scalars beta_;  ///< of each row by model A [kg/s]
-    Points given_, promised_, smoothed_, gathered_, velocityAtRow_, vorticityAtRow_;
+    Points given_, owed_;
     Points deviation_;  ///< of the gas velocity at each row from that of its cells [m/s]; no rows without a profile
 };
 

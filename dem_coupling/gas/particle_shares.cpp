@@ -68,28 +68,30 @@ Index ParticleShares::rowsOutside() const
     return std::count(inside_.begin(), inside_.end(), 0);
 }
 
-void ParticleShares::deposit(const Scalars& ofRow, Scalars& ofCell)
+void ParticleShares::deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell)
 {
     if (points_ == 1) {
         locator_.deposit(ofRow, ofCell);
         return;
     }
-    pointValue_.resize(points_ * ofRow.size());
-    for (Index row = 0; row < ofRow.size(); ++row) {
-        const int inside = inside_[static_cast<std::size_t>(row)];
-        pointValue_.segment(points_ * row, points_).setConstant(inside > 0 ? ofRow[row] / inside : 0);
+    pointValues_.resize(points_ * ofRow.rows(), ofRow.cols());
+    for (Index k = 0; k < ofRow.cols(); ++k) {
+        for (Index row = 0; row < ofRow.rows(); ++row) {
+            const int inside = inside_[static_cast<std::size_t>(row)];
+            pointValues_.col(k).segment(points_ * row, points_).setConstant(inside > 0 ? ofRow(row, k) / inside : 0);
+        }
     }
-    locator_.deposit(pointValue_, ofCell);
+    locator_.deposit(pointValues_, ofCell);
 }
 
-void ParticleShares::gather(const std::function<Vector3(Index)>& valueOfCell, Points& ofRow)
+void ParticleShares::gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
 {
     if (points_ == 1) {
-        locator_.gather(valueOfCell, ofRow);
+        locator_.gather(ofCell, ofRow);
         return;
     }
-    locator_.gather(valueOfCell, pointVector_);
-    meanOfPoints(ofRow);
+    locator_.gather(ofCell, pointValues_);
+    meanOfPoints(pointValues_, ofRow);
 }
 
 void ParticleShares::gather(const DemParticles& particles, const std::function<Vector3(Index, const Vector3&)>& valueAt,
@@ -100,16 +102,16 @@ void ParticleShares::gather(const DemParticles& particles, const std::function<V
         return;
     }
     locator_.gather(place_, valueAt, pointVector_);
-    meanOfPoints(ofRow);
+    meanOfPoints(pointVector_, ofRow);
 }
 
-void ParticleShares::meanOfPoints(Points& ofRow) const
+template <class Values> void ParticleShares::meanOfPoints(const Values& ofPoint, Values& ofRow) const
 {
-    ofRow.setZero(static_cast<Index>(inside_.size()), 3);
+    ofRow.setZero(static_cast<Index>(inside_.size()), ofPoint.cols());
     for (Index row = 0; row < ofRow.rows(); ++row) {
         const int inside = inside_[static_cast<std::size_t>(row)];
         if (inside > 0) {
-            ofRow.row(row) = pointVector_.middleRows(points_ * row, points_).colwise().sum() / inside;
+            ofRow.row(row) = ofPoint.middleRows(points_ * row, points_).colwise().sum() / inside;
         }
     }
 }

@@ -25,10 +25,11 @@ public:
     bool inMesh(Index row) const { return inside_[static_cast<std::size_t>(row)] > 0; }
     Index rowsOutside() const;  ///< of this rank
 
-    /// Sum over particles of share times value, per local cell. Its total is that over all rows in the mesh. Collective.
-    void deposit(const Scalars& ofRow, Scalars& ofCell);
-    /// Per row the mean over its shares of a value of cells. Collective; valueOfCell is called on the rank of the cell.
-    void gather(const std::function<Vector3(Index)>& valueOfCell, Points& ofRow);
+    /// Sums over particles of share times value, per local cell; one column for each of a particle's values. A column's total is
+    /// that over all rows in the mesh. Collective.
+    void deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell);
+    /// Per row the means over its shares of values of the cells, one row per local cell. Collective.
+    void gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow);
     /// Per row the mean over its points of a value that varies inside the cells. Collective; valueAt is called on the rank of
     /// the cell.
     /// @param particles  those of locate()
@@ -37,14 +38,14 @@ public:
                 Points& ofRow);
 
 private:
-    /// Per row the mean of pointVector_ over its points in the mesh.
-    void meanOfPoints(Points& ofRow) const;
+    /// Per row the mean of a value over its points in the mesh.
+    template <class Values> void meanOfPoints(const Values& ofPoint, Values& ofRow) const;
 
     MeshLocator locator_;
     Index points_;             ///< per particle
     std::vector<int> inside_;  ///< points of each row in the mesh
     Points place_;             ///< of all points, row by row [m]
-    Scalars pointValue_;
+    Eigen::ArrayXXd pointValues_;
     Points pointVector_;
 };
 

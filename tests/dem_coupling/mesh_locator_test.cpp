@@ -60,6 +60,36 @@ TEST(MeshLocator, bringsBackTheVectorOfTheCellThatHoldsEachParticle)
     }
 }
 
+TEST(MeshLocator, carriesManyColumnsAsItCarriesOne)
+{
+    const BoxMesh mesh(box, cells, 1.0, MPI_COMM_WORLD);
+    MeshLocator locator(mesh, MPI_COMM_WORLD);
+    const DemParticles mine = dealt(randomParticles(300, box, 0.01, 1e-9, Charges::random, 4), MPI_COMM_WORLD);
+    locator.locate(mine.position);
+
+    Eigen::ArrayXXd ofRow(mine.size(), 4), ofCell;
+    ofRow << mine.charge, mine.position;
+    locator.deposit(ofRow, ofCell);
+    ASSERT_EQ(ofCell.rows(), mesh.cellCount());
+    ASSERT_EQ(ofCell.cols(), 4);
+    for (int column = 0; column < 4; ++column) {
+        Scalars one;
+        locator.deposit(Scalars(ofRow.col(column)), one);
+        EXPECT_TRUE((ofCell.col(column) == one).all()) << column;
+    }
+
+    Points centres;
+    locator.gather([&](Index cell) { return mesh.cellCentre(cell); }, centres);
+    Eigen::ArrayXXd values(mesh.cellCount(), 4), gathered;
+    for (Index cell = 0; cell < values.rows(); ++cell) {
+        values.row(cell) << mesh.cellCentre(cell).transpose().array(), 2 * mesh.cellCentre(cell)[0];
+    }
+    locator.gather(values, gathered);
+    ASSERT_EQ(gathered.rows(), mine.size());
+    EXPECT_TRUE((gathered.leftCols(3) == centres).all());
+    EXPECT_TRUE((gathered.col(3) == 2 * centres.col(0)).all());
+}
+
 TEST(MeshLocator, givesTheChargeOfAParticleOnAFaceBetweenRanksToExactlyOne)
 {
     // One particle in every plane x = 1 ... 7, so on 2 and 4 ranks some sit exactly between two ranks.
@@ -96,12 +126,15 @@ TEST(MeshLocator, leavesParticlesOutsideTheMeshOut)
     locator.locate(mine.position);
     locator.deposit(mine.charge, cellCharge);
     locator.gather([](Index) -> Vector3 { return Vector3::Ones(); }, values);
+    Eigen::ArrayXXd columns;
+    locator.gather(Eigen::ArrayXXd::Ones(mesh.cellCount(), 2), columns);
     EXPECT_EQ(sumOverRanks(cellCharge.sum()), 1001.0);
     for (Index row = 0; row < mine.size(); ++row) {
         const int tag = mine.tag[static_cast<std::size_t>(row)];
         const bool inside = tag == 1 || tag == 4;
         EXPECT_EQ(locator.inMesh(row), inside);
         EXPECT_EQ(values(row, 0), inside ? 1.0 : 0.0);
+        EXPECT_TRUE((columns.row(row) == (inside ? 1.0 : 0.0)).all());
         if (!inside) {
             EXPECT_TRUE((locator.cellCentre().row(row) == mine.position.row(row)).all());
         }

@@ -87,13 +87,19 @@ std::vector<Points> centresOfAll(const MeshArrays& mesh)
     Foam::List<Foam::vectorField> all(Foam::Pstream::nProcs());
     Foam::vectorField& own = all[Foam::Pstream::myProcNo()];
     own.setSize(static_cast<Foam::label>(mesh.cells()));
-    forAll(own, cell) { own[cell] = toFoam(rowOf(mesh.centre, cell)); }
+    forAll(own, cell)
+    {
+        own[cell] = toFoam(rowOf(mesh.centre, cell));
+    }
     Foam::Pstream::gatherList(all);
     Foam::Pstream::scatterList(all);
     std::vector<Points> centres;
     for (const Foam::vectorField& ofRank : all) {
         centres.emplace_back(ofRank.size(), 3);
-        forAll(ofRank, cell) { centres.back().row(cell) = toEigen(ofRank[cell]).transpose().array(); }
+        forAll(ofRank, cell)
+        {
+            centres.back().row(cell) = toEigen(ofRank[cell]).transpose().array();
+        }
     }
     return centres;
 }
@@ -195,6 +201,28 @@ void saySolutions(foamPoissonMesh& poisson)
     say("correctedError", errorOf(exact, poisson));
 }
 
+/// Of points in and around every cell: the share that the cell surely holds, and how many of those find() gives to another.
+void saySurelyHeld(const foamPoissonMesh& poisson)
+{
+    double asked = 0, held = 0, elsewhere = 0;
+    const Box bounds = poisson.localBounds();
+    const double size = bounds.empty() ? 0 : std::cbrt(bounds.size().prod() / static_cast<double>(poisson.cellCount()));
+    for (Index cell = 0; cell < poisson.cellCount(); ++cell) {
+        // Multiples of 1/8 meet the faces of boxes.
+        for (int n = 0; n < 11 * 11 * 11; ++n) {
+            const Vector3 step(n % 11 - 5, n / 11 % 11 - 5, n / 121 - 5);
+            const Vector3 point = poisson.cellCentre(cell) + 0.125 * size * step;
+            asked += 1;
+            if (poisson.surelyHolds(cell, point)) {
+                held += 1;
+                elsewhere += poisson.findCell(point) == cell ? 0 : 1;
+            }
+        }
+    }
+    say("surelyHeld", sum(held) / sum(asked));
+    say("heldElsewhere", sum(elsewhere));
+}
+
 }  // namespace
 
 int main(int argc, char* argv[])
@@ -221,6 +249,7 @@ int main(int argc, char* argv[])
     say("openness", openness(poisson->arrays()));
     saySizes(poisson->arrays());
     sayCoupled(poisson->arrays());
+    saySurelyHeld(*poisson);
     saySolutions(*poisson);
     return 0;
 }

@@ -52,6 +52,7 @@ class ArraysOfMeshes(unittest.TestCase):
                 except ValueError:
                     pass
         self.assertLess(found["openness"], 1e-12)
+        self.assertEqual(found["heldElsewhere"], 0)
         self.assertAlmostEqual(found["volume"], SIZE**3, delta=1e-12)
         return found
 
@@ -66,6 +67,7 @@ class ArraysOfMeshes(unittest.TestCase):
             self.assertEqual(found["cells"], 6 * 7 * 8)
             self.assertEqual(found["coupledFaces"], 2 * 6 * 7 * (ranks - 1))
             self.assertEqual(found["shiftedFaces"], 0)
+            self.assertGreater(found["surelyHeld"], 0.2)
             self.assertLess(found["coupledOffset"], 1e-12)
             self.assertAlmostEqual(found["conductorArea"], 6 * SIZE**2, delta=1e-12)
             self.assertLess(found["linearError"], 1e-12)

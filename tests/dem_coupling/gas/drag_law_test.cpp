@@ -6,6 +6,7 @@
 
 #include <cfenv>
 #include <cmath>
+#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -31,8 +32,36 @@ double volume(const DragPoint& at)
     return pi * std::pow(at.diameter, 3) / 6;
 }
 
+/// Room for spheres in nitrogen.
+DragPoints spheres(Index rows)
+{
+    return {Scalars(rows), Scalars(rows), Scalars(rows), 1.149, 1.766e-5};
+}
+
+/// One sphere in the form of a law for many.
+double drag(const std::string& name, const DragPoint& at)
+{
+    DragPoints points = spheres(1);
+    points.voidFraction << at.voidFraction;
+    points.slip << at.slip;
+    points.diameter << at.diameter;
+    Scalars beta;
+    dragOfMany(name)(points, beta);
+    return beta[0];
+}
+
+/// The same by the law of one sphere.
+double oneSphereDrag(const std::string& name, const DragPoint& at)
+{
+    const std::map<std::string, double (*)(const DragPoint&)> laws{
+        {"WenYu", wenYuDrag},       {"SchillerNaumann", schillerNaumannDrag},
+        {"Gidaspow", gidaspowDrag}, {"Beetstra", beetstraDrag},
+        {"DiFelice", diFeliceDrag}, {"KochHill", kochHillDrag}};
+    return laws.at(name)(at);
+}
+
 /// Pressure gradient of a resting bed at a superficial velocity: alpha (-dp/dx) = beta (1 - alpha)/V_p slip.
-double bedGradient(const DragLaw& law, DragPoint at, double superficial)
+template <class Law> double bedGradient(const Law& law, DragPoint at, double superficial)
 {
     at.slip = superficial / at.voidFraction;
     return law(at) * (1 - at.voidFraction) / volume(at) * at.slip / at.voidFraction;
@@ -49,10 +78,10 @@ TEST(DragLaw, namesAllSixAndRefusesAnotherByListingThem)
 {
     EXPECT_EQ(dragLawNames().size(), 6u);
     for (const std::string& name : dragLawNames()) {
-        EXPECT_GT(makeDragLaw(name)(polyethylene(0.5, 0.3)), 0) << name;
+        EXPECT_GT(drag(name, polyethylene(0.5, 0.3)), 0) << name;
     }
     try {
-        makeDragLaw("Stokes");
+        dragOfMany("Stokes");
         FAIL() << "an unknown law was accepted";
     } catch (const std::invalid_argument& refusal) {
         EXPECT_STREQ(
@@ -67,12 +96,7 @@ TEST(DragLaw, ofManySpheresIsThatOfEachToRoundOffAndToTheDigitWhateverStandsBesi
     std::uniform_real_distribution<double> share(0, 1);
     for (const std::string& name : dragLawNames()) {
         for (const Index rows : {1, 7, 8, 43}) {
-            DragPoints points, turned;
-            for (DragPoints* p : {&points, &turned}) {
-                p->resize(rows);
-                p->density = 1.149;
-                p->viscosity = 1.766e-5;
-            }
+            DragPoints points = spheres(rows), turned = spheres(rows);
             for (Index row = 0; row < rows; ++row) {
                 points.voidFraction[row] = row == 0 ? 1 : 0.35 + 0.65 * share(random);
                 points.slip[row] = row == 1 ? 0 : std::pow(10, 6 * share(random) - 4);  // Re up to 1e3 and more
@@ -86,7 +110,7 @@ TEST(DragLaw, ofManySpheresIsThatOfEachToRoundOffAndToTheDigitWhateverStandsBesi
             dragOfMany(name)(turned, turnedBeta);
             ASSERT_EQ(beta.size(), rows);
             for (Index row = 0; row < rows; ++row) {
-                const double one = makeDragLaw(name)(points.at(row));
+                const double one = oneSphereDrag(name, points.at(row));
                 EXPECT_NEAR(beta[row] / one, 1, 1e-14) << name << " row " << row << " of " << rows;
                 EXPECT_EQ(beta[row], turnedBeta[rows - 1 - row]) << name << " row " << row << " of " << rows;
             }
@@ -98,20 +122,19 @@ TEST(DragLaw, ofASingleCreepingSphereIsStokes)
 {
     const DragPoint at = polyethylene(1, 1e-9);
     for (const char* name : {"WenYu", "SchillerNaumann", "Gidaspow", "Beetstra", "KochHill"}) {
-        EXPECT_NEAR(makeDragLaw(name)(at) / stokesOf(at), 1, 2e-4) << name;
+        EXPECT_NEAR(drag(name, at) / stokesOf(at), 1, 2e-4) << name;
     }
     // Dallavalle's sphere has C_D Re = 4.8^2 = 23.04 where Stokes has 24.
-    EXPECT_NEAR(makeDragLaw("DiFelice")(at) / stokesOf(at), 23.04 / 24, 1e-3);
+    EXPECT_NEAR(drag("DiFelice", at) / stokesOf(at), 23.04 / 24, 1e-3);
 }
 
 TEST(DragLaw, isFiniteAndContinuousAtZeroSlip)
 {
     for (const std::string& name : dragLawNames()) {
         for (const double voidFraction : {0.35, 0.55, 0.7, 0.9, 1.0}) {
-            const double still = makeDragLaw(name)(polyethylene(voidFraction, 0));
+            const double still = drag(name, polyethylene(voidFraction, 0));
             EXPECT_TRUE(std::isfinite(still) && still > 0) << name << ' ' << voidFraction;
-            EXPECT_NEAR(makeDragLaw(name)(polyethylene(voidFraction, 1e-12)) / still, 1, 1e-4)
-                << name << ' ' << voidFraction;
+            EXPECT_NEAR(drag(name, polyethylene(voidFraction, 1e-12)) / still, 1, 1e-4) << name << ' ' << voidFraction;
         }
     }
 }
@@ -185,7 +208,8 @@ TEST(DragLaw, lawsOfPackedBedsAgreeWithinTheirScatter)
     const DragPoint at = polyethylene(0.45, 0);
     const double reference = ergunGradient(at, 0.05);
     for (const char* name : {"Gidaspow", "Beetstra", "KochHill", "DiFelice", "WenYu"}) {
-        const double ratio = bedGradient(makeDragLaw(name), at, 0.05) / reference;
+        const double ratio =
+            bedGradient([&](const DragPoint& point) { return drag(name, point); }, at, 0.05) / reference;
         EXPECT_GT(ratio, 0.6) << name;
         EXPECT_LT(ratio, 1.6) << name;
     }
@@ -197,7 +221,7 @@ TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
     const DragPoint at = polyethylene(0.42, 0.3);
     const double number = (1 - at.voidFraction) / volume(at);
     for (const std::string& name : dragLawNames()) {
-        const double a = makeDragLaw(name)(at);
+        const double a = drag(name, at);
         const double b = dragOfModelB(a, at.voidFraction);
         const double gradientA = number * a * at.slip / at.voidFraction;
         EXPECT_NEAR(number * b * at.slip / gradientA, 1, 1e-13) << name;
@@ -224,13 +248,10 @@ TEST(DragLaw, ofManySpheresSetsOffNoFloatingPointTrapAtRestOrInPureGas)
         for (const Index rows : {8, 9, 16}) {
             for (Index special = 0; special < rows; ++special) {
                 for (const double voidFraction : {1.0, 1 + 1e-15, 0.6}) {
-                    DragPoints points;
-                    points.resize(rows);
+                    DragPoints points = spheres(rows);
                     points.voidFraction.setConstant(0.45);
                     points.slip.setConstant(0.3);
                     points.diameter.setConstant(277e-6);
-                    points.density = 1.149;
-                    points.viscosity = 1.766e-5;
                     points.voidFraction[special] = voidFraction;
                     points.slip[special] = voidFraction > 0.8 ? 0.3 : 0;
                     Scalars beta;

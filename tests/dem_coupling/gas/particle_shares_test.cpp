@@ -49,7 +49,7 @@ TEST_P(Shares, keepTheSumOfWhatTheyLayOnCellsBesideWallsToo)
     const DemParticles particles = spheres(200, false);
     shares.locate(particles);
     EXPECT_EQ(overRanks(static_cast<double>(shares.rowsOutside())), 0);
-    Scalars laid;
+    Eigen::ArrayXXd laid;
     shares.deposit(particles.radius.cube(), laid);
     EXPECT_GE(laid.size() > 0 ? laid.minCoeff() : 0, 0);
     const double total = overRanks(particles.radius.cube().sum());
@@ -61,17 +61,19 @@ TEST_P(Shares, gatherWithTheWeightsByWhichTheyLay)
     // sum over rows of a gather(b) = sum over cells of deposit(a) b.
     const DemParticles particles = spheres(200, false);
     shares.locate(particles);
-    Scalars laid;
-    shares.deposit(particles.radius, laid);
-    const auto valueOf = [this](Index cell) { return mesh.cellCentre(cell).array().cube().matrix().eval(); };
-    double ofCells = 0;
-    for (Index cell = 0; cell < laid.size(); ++cell) {
-        ofCells += laid[cell] * valueOf(cell)[2];
+    Eigen::ArrayXXd values(mesh.cellCount(), 2), laid, gathered;
+    for (Index cell = 0; cell < values.rows(); ++cell) {
+        values(cell, 0) = std::pow(mesh.cellCentre(cell)[2], 3);
+        values(cell, 1) = mesh.cellCentre(cell)[0] - 3 * mesh.cellCentre(cell)[1];
     }
-    Points gathered;
-    shares.gather(valueOf, gathered);
-    const double ofRows = overRanks((particles.radius * gathered.col(2)).sum());
-    EXPECT_NEAR(overRanks(ofCells), ofRows, 1e-13 * ofRows);
+    Eigen::ArrayXXd ofParticles(particles.size(), 2);
+    ofParticles << particles.radius, particles.radius.square();
+    shares.deposit(ofParticles, laid);
+    shares.gather(values, gathered);
+    for (int column = 0; column < 2; ++column) {
+        const double ofRows = overRanks((ofParticles.col(column) * gathered.col(column)).sum());
+        EXPECT_NEAR(overRanks((laid.col(column) * values.col(column)).sum()), ofRows, 1e-13 * std::fabs(ofRows));
+    }
 }
 
 TEST_P(Shares, findALinearFieldAtTheCentreOfEveryParticle)
@@ -116,11 +118,10 @@ TEST_P(Shares, giveNothingOfParticlesOutside)
     particles.position.col(1) += 3;
     shares.locate(particles);
     EXPECT_EQ(shares.rowsOutside(), particles.size());
-    Scalars laid;
+    Eigen::ArrayXXd laid, found;
     shares.deposit(particles.radius, laid);
     EXPECT_EQ(laid.abs().sum(), 0);
-    Points found;
-    shares.gather([](Index) { return Vector3(1, 2, 3); }, found);
+    shares.gather(Eigen::ArrayXXd::Ones(mesh.cellCount(), 3), found);
     EXPECT_EQ(found.abs().sum(), 0);
 }
 
