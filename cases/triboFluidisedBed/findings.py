@@ -8,7 +8,7 @@ GOOD_FIT = 0.05         # deviation of S6.1's curve from the charge, root mean s
 EARLY = 5.0             # [s] of a t before which a few first contacts make the charge
 FULLER = 2.0            # a layer that stands holds this many times the particles of the uncharged one ...
 FROZEN = 0.5            # ... at less than this share of its RMS speed
-MUCH_MORE = 1.5         # uniform charge loses this many times the pressure drop of the charge that the walls have given
+MUCH_MORE = 1.5         # uniform charge loses this many times the pressure drop of as much charge that the walls have given
 
 
 def same_start(runs):
@@ -44,6 +44,12 @@ def segregation_grows(strength, group):
             all(a < b for a, b in zip(ratios, ratios[1:])))
 
 
+def drop_at(run, charge):
+    """Pressure drop [Pa] of a dynamic run at a charge per mass [C/kg], by a straight line through its last 0.5 s."""
+    late = run.time > run.time[-1] - 0.5
+    return np.polyval(np.polyfit(run.bed["chargePerMass"][late], run.bed["pressureDrop"][late], 1), charge)
+
+
 def findings(runs, base):
     """Sentences and whether each is so (None: nothing was expected)."""
     found = []
@@ -69,9 +75,9 @@ def findings(runs, base):
         if not twin:
             continue
         before = base.late("pressureDrop", 0.3)
-        lost = [1 - other.late("pressureDrop")/before for other in (run, twin[0])]
+        charge = twin[0].bed["chargePerMass"][-1]
+        lost = [1 - drop/before for drop in (drop_at(run, charge), twin[0].late("pressureDrop"))]
         wide = base.bed["particles"][-1] > 10000     # smaller columns are all wall
-        end = 1 - run.late("pressureDrop", 0.1)/before      # at nearly the charge of the uniform run
-        found.append((f"{run.name}: dynamic charge loses {100*lost[0]:.1f} % of the pressure drop ({100*end:.1f} % in its last 0.1 s), the same charge spread uniformly {100*lost[1]:.1f} %",
-                      lost[1] > MUCH_MORE*max(lost[0], 0) if wide else None))
+        found.append((f"{run.name}: with {1e6*charge:.1f} uC/kg dynamic charge loses {100*lost[0]:.1f} % of the pressure drop, the same charge "
+                      f"spread uniformly {100*lost[1]:.1f} %", lost[1] > MUCH_MORE*max(lost[0], 0) if wide else None))
     return found
