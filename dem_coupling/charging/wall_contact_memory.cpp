@@ -171,7 +171,9 @@ std::int64_t WallContactMemory::update(const std::vector<WallTouch>& touches, in
     if (occupied_.size() > before) {
         const auto added = occupied_.begin() + static_cast<std::ptrdiff_t>(before);
         std::sort(added, occupied_.end());
-        std::inplace_merge(occupied_.begin(), added, occupied_.end());
+        merged_.resize(occupied_.size());
+        std::merge(occupied_.begin(), added, added, occupied_.end(), merged_.begin());
+        occupied_.swap(merged_);
     }
     if (!inOrder_) {
         layInOrder();

@@ -71,7 +71,7 @@ private:
     std::vector<Contact> contacts_, next_;
     std::vector<Range> ranges_;  ///< per row
     /// Rows that had contacts after the last update(), in order: few particles of a bed touch a wall.
-    std::vector<int> occupied_;
+    std::vector<int> occupied_, merged_;
     bool inOrder_ = true;         ///< contacts_ follow occupied_ without gaps
     bool occupiedKnown_ = false;  ///< false after rows moved or were cleared
     int rowsKnown_ = 0;           ///< of the last update()
