@@ -11,13 +11,13 @@ namespace him {
 
 namespace {
 
-/// Charge [C] that one volt per metre drives through the grown area.
+/// The same as conductanceOf(), of checked factors.
 double conductance(double efficiency, double areaGrowth, double permittivity)
 {
     requirePositive("permittivity", permittivity);
     requireNotNegative("charging efficiency", efficiency);
     requireNotNegative("area growth", areaGrowth);
-    return permittivity * efficiency * areaGrowth;
+    return conductanceOf(efficiency, areaGrowth, permittivity);
 }
 
 /// Gamma less the field at the contact [V/m] (R16, R28). Every term changes sign with Gamma and the charges, so the sum

@@ -64,7 +64,7 @@ inline double ChargeTransfer::limitOf(const DemRows& rows, const ChargingPair& l
 /// chargeGained() and chargeGainedFrozen() without their checks: kappa and growth are positive here.
 inline double ChargeTransfer::gainedBy(double drive, double relaxation, double rate, double growth) const
 {
-    const double explicitly = permittivity_ * rate * growth * drive;
+    const double explicitly = conductanceOf(rate, growth, permittivity_) * drive;
     return update_ == WithinContact::updated ? explicitly * relaxationFactorOf(relaxation) : explicitly;
 }
 

@@ -110,16 +110,16 @@ void MeshLocator::locate(const Points& positions)
 void MeshLocator::deposit(const Scalars& charge, Scalars& cellCharge)
 {
     cellCharge.resize(mesh_.cellCount());
-    deposit(Eigen::Ref<const Eigen::ArrayXXd>(charge), Eigen::Ref<Eigen::ArrayXXd>(cellCharge));
+    addToCells(charge, cellCharge);
 }
 
-void MeshLocator::deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell)
+void MeshLocator::deposit(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::ArrayXXd& ofCell)
 {
     ofCell.resize(mesh_.cellCount(), ofRow.cols());
-    deposit(Eigen::Ref<const Eigen::ArrayXXd>(ofRow), Eigen::Ref<Eigen::ArrayXXd>(ofCell));
+    addToCells(ofRow, ofCell);
 }
 
-void MeshLocator::deposit(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::Ref<Eigen::ArrayXXd> ofCell)
+void MeshLocator::addToCells(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::Ref<Eigen::ArrayXXd> ofCell)
 {
     const Index columns = ofRow.cols();
     exchange_.clear(outgoing_);
@@ -192,7 +192,7 @@ void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Point
     takeAnswers(values);
 }
 
-void MeshLocator::gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
+void MeshLocator::gather(const Eigen::ArrayXXd& ofCell, Eigen::Ref<Eigen::ArrayXXd> ofRow)
 {
     const Index columns = ofCell.cols();
     exchange_.clear(outgoing_);
@@ -205,7 +205,6 @@ void MeshLocator::gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
         incoming_[rank].resize(static_cast<std::size_t>(columns) * askedRows_[rank].size());
     }
     exchange_.answer(outgoing_, incoming_);
-    ofRow.resize(static_cast<Index>(owner_.size()), columns);
     for (Index k = 0; k < columns; ++k) {
         for (std::size_t row = 0; row < cell_.size(); ++row) {
             ofRow(static_cast<Index>(row), k) = cell_[row] >= 0 ? ofCell(cell_[row], k) : 0.0;

@@ -40,21 +40,21 @@ public:
     void deposit(const Scalars& charge, Scalars& cellCharge);
     /// The same for several values of every particle at once, one column each, in one message to each neighbour.
     /// @param ofCell  becomes one row per local cell
-    void deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell);
+    void deposit(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::ArrayXXd& ofCell);
 
     /// One vector per row, taken from the cell that holds it; zero for rows outside. Only neighbours talk.
     /// @param valueOfCell  called with local cells on the rank that owns them
     void gather(const std::function<Vector3(Index)>& valueOfCell, Points& values);
     /// The same for values that lie ready, one row per local cell, any number of columns.
-    /// @param ofRow  becomes one row per position
-    void gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow);
+    /// @param ofRow  one row per position, as many columns
+    void gather(const Eigen::ArrayXXd& ofCell, Eigen::Ref<Eigen::ArrayXXd> ofRow);
     /// The same with the place of each row inside its cell.
     /// @param positions  those of locate() [m]
     /// @param valueAt    called with local cells and points in them [m], periodic copies brought into the box
     void gather(const Points& positions, const std::function<Vector3(Index, const Vector3&)>& valueAt, Points& values);
 
 private:
-    void deposit(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::Ref<Eigen::ArrayXXd> ofCell);
+    void addToCells(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::Ref<Eigen::ArrayXXd> ofCell);
     /// To the ranks that were asked about rows, one vector for each of their answers: what `incoming_` holds afterwards.
     void answerVectors(const std::function<Vector3(std::size_t, std::size_t)>& valueOfAnswer);
     /// Rows of other ranks' cells from what they have answered.

@@ -62,19 +62,18 @@ void GasCoupling::smoothColumns(Eigen::ArrayXXd& ofCell)
     }
 }
 
-void GasCoupling::toCells(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& perVolume)
+void GasCoupling::toCells(Columns& columns)
 {
-    shares_.deposit(ofRow, perVolume);
-    perVolume.colwise() /= volume_;
-    smoothColumns(perVolume);
+    shares_.deposit(columns.ofRows, columns.ofCells);
+    columns.ofCells.colwise() /= volume_;
+    smoothColumns(columns.ofCells);
 }
 
-void GasCoupling::toRows(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
+void GasCoupling::toRows(Columns& columns)
 {
     // The adjoint of the deposit, so that a particle gets what the gas gives for it.
-    smoothedCells_ = ofCell;
-    smoothColumns(smoothedCells_);
-    shares_.gather(smoothedCells_, ofRow);
+    smoothColumns(columns.ofCells);
+    shares_.gather(columns.ofCells, columns.ofRows);
 }
 
 void GasCoupling::begin(const DemParticles& particles)
@@ -88,7 +87,7 @@ void GasCoupling::collect(const DemParticles& particles, const Points& velocity)
     findDrag(particles, velocity);
     dem_.gasImpulse(given_, lastDuration_, owed_);
     owed_ = given_ - owed_;
-    laySources(particles, &owed_);
+    laySources(particles);
     settleOwed();
 }
 
@@ -101,7 +100,6 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
         return;
     }
     findDrag(particles, result.velocity);
-    laySources(particles, nullptr);
     handBack(particles, result, duration);
     books_.given = books_.ahead = books_.promised;
 }
@@ -109,9 +107,9 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
 void GasCoupling::layVolumes(const DemParticles& particles)
 {
     shares_.locate(particles);
-    ofRows_ = sphereVolume(particles.radius);
-    toCells(ofRows_, ofCells_);
-    sources_.voidFraction = ofCells_.col(0);
+    solid_.ofRows = sphereVolume(particles.radius);
+    toCells(solid_);
+    sources_.voidFraction = solid_.ofCells.col(0);
 
     // Sums: solid volume, particles outside, cells and volume below the bound, mass, its moments, momentum.
     std::array<double, 11> sums{};
@@ -183,16 +181,16 @@ void GasCoupling::refuseOutside(const DemParticles& particles) const
 
 void GasCoupling::findDrag(const DemParticles& particles, const Points& velocity)
 {
-    ofCells_.resize(volume_.size(), 4);
-    ofCells_.leftCols(3) = velocity;
-    ofCells_.col(3) = sources_.voidFraction;
-    toRows(ofCells_, ofRows_);
+    seen_.ofCells.resize(volume_.size(), 4);
+    seen_.ofCells.leftCols(3) = velocity;
+    seen_.ofCells.col(3) = sources_.voidFraction;
+    toRows(seen_);
     if (profile_) {
         findDeviations(particles);
-        ofRows_.leftCols(3) += deviation_;
+        seen_.ofRows.leftCols(3) += deviation_;
     }
-    dragPoints_.voidFraction = ofRows_.col(3);
-    dragPoints_.slip = (ofRows_.leftCols(3) - particles.velocity).square().rowwise().sum().sqrt();
+    dragPoints_.voidFraction = seen_.ofRows.col(3);
+    dragPoints_.slip = (seen_.ofRows.leftCols(3) - particles.velocity).square().rowwise().sum().sqrt();
     dragPoints_.diameter = 2 * particles.radius;
     if (shares_.rowsOutside() > 0) {
         for (Index row = 0; row < particles.size(); ++row) {
@@ -227,32 +225,28 @@ void GasCoupling::findDrag(const DemParticles& particles, const Points& velocity
 
 void GasCoupling::findDeviations(const DemParticles& particles)
 {
-    profile_->update(smoothedCells_.leftCols(3));
+    profile_->update(seen_.ofCells.leftCols(3));
     shares_.gather(
         particles, [this](Index cell, const Vector3& point) { return profile_->deviation(cell, point); }, deviation_);
 }
 
-void GasCoupling::laySources(const DemParticles& particles, const Points* owed)
+void GasCoupling::laySources(const DemParticles& particles)
 {
-    ofRows_.resize(particles.size(), owed ? 7 : 4);
-    ofRows_.col(0) = forces_.drag;
+    laid_.ofRows.resize(particles.size(), 7);
+    laid_.ofRows.col(0) = forces_.drag;
     for (int axis = 0; axis < 3; ++axis) {
         const auto velocity = particles.velocity.col(axis);
         if (profile_) {
-            ofRows_.col(1 + axis) = forces_.drag * (velocity - deviation_.col(axis));
+            laid_.ofRows.col(1 + axis) = forces_.drag * (velocity - deviation_.col(axis));
         } else {
-            ofRows_.col(1 + axis) = forces_.drag * velocity;
+            laid_.ofRows.col(1 + axis) = forces_.drag * velocity;
         }
     }
-    if (owed) {
-        ofRows_.rightCols(3) = *owed;
-    }
-    toCells(ofRows_, ofCells_);
-    sources_.drag = ofCells_.col(0);
-    sources_.dragMomentum = ofCells_.middleCols(1, 3);
-    if (owed) {
-        sources_.owed = ofCells_.rightCols(3);
-    }
+    laid_.ofRows.rightCols(3) = owed_;
+    toCells(laid_);
+    sources_.drag = laid_.ofCells.col(0);
+    sources_.dragMomentum = laid_.ofCells.middleCols(1, 3);
+    sources_.owed = laid_.ofCells.rightCols(3);
 }
 
 void GasCoupling::settleOwed()
@@ -282,8 +276,8 @@ void GasCoupling::settleOwed()
 
 void GasCoupling::addUnpaidForces(const DemParticles& particles)
 {
-    const auto acceleration = ofRows_.rightCols(6).leftCols(3);
-    const auto vorticity = ofRows_.rightCols(3);
+    const auto acceleration = back_.ofRows.rightCols(6).leftCols(3);
+    const auto vorticity = back_.ofRows.rightCols(3);
     beyondLift_ = 0;
     for (Index row = 0; row < particles.size(); ++row) {
         if (!shares_.inMesh(row)) {
@@ -306,17 +300,17 @@ void GasCoupling::addUnpaidForces(const DemParticles& particles)
 void GasCoupling::handBack(const DemParticles& particles, const GasResult& result, double duration)
 {
     const bool feelsPressure = settings_.pressure == PressureModel::modelA;
-    ofCells_.resize(volume_.size(), 3 + (feelsPressure ? 3 : 0) + (settings_.needsGasMotion() ? 6 : 0));
-    ofCells_.leftCols(3) = result.velocity;
+    back_.ofCells.resize(volume_.size(), 3 + (feelsPressure ? 3 : 0) + (settings_.needsGasMotion() ? 6 : 0));
+    back_.ofCells.leftCols(3) = result.velocity;
     if (feelsPressure) {
-        ofCells_.middleCols(3, 3) = result.pressureForce;
+        back_.ofCells.middleCols(3, 3) = result.pressureForce;
     }
     if (settings_.needsGasMotion()) {
-        ofCells_.rightCols(6).leftCols(3) = result.acceleration;
-        ofCells_.rightCols(3) = result.vorticity;
+        back_.ofCells.rightCols(6).leftCols(3) = result.acceleration;
+        back_.ofCells.rightCols(3) = result.vorticity;
     }
-    toRows(ofCells_, ofRows_);
-    forces_.velocity = ofRows_.leftCols(3);
+    toRows(back_);
+    forces_.velocity = back_.ofRows.leftCols(3);
     if (profile_) {
         forces_.velocity += deviation_;
     }
@@ -326,7 +320,7 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
         }
         const double volume = sphereVolume(particles.radius[row]);
         if (feelsPressure) {
-            forces_.force.row(row) = volume * ofRows_.row(row).segment<3>(3);
+            forces_.force.row(row) = volume * back_.ofRows.row(row).segment<3>(3);
         }
         forces_.buoyancy.row(row) = -settings_.density * volume * settings_.gravity.transpose().array();
     }

@@ -105,18 +105,22 @@ private:
     void findDrag(const DemParticles& particles, const Points& velocity);
     /// Deviation of the gas velocity at the particles from that of their cells, by the profile. After toRows() of the velocity.
     void findDeviations(const DemParticles& particles);
-    /// Lays drag and its momentum on the mesh, and what is owed to it where there is something. After findDrag().
-    void laySources(const DemParticles& particles, const Points* owed);
+    /// Lays drag, its momentum and what is owed on the mesh. After findDrag().
+    void laySources(const DemParticles& particles);
     /// Books what the particles got, and spreads what the deposit does not know of.
     void settleOwed();
-    /// Lift and what the acceleration of the gas does to a particle; ofRows_ ends with acceleration and vorticity.
+    /// Lift and what the acceleration of the gas does to a particle; back_ ends with acceleration and vorticity.
     void addUnpaidForces(const DemParticles& particles);
     /// The void-fraction model's spreading of every column, per volume or value of the cells.
     void smoothColumns(Eigen::ArrayXXd& ofCell);
-    /// Sums over particles per volume of cells, and the means of cells at particles, by the void-fraction model; one column for
-    /// each value. Collective.
-    void toCells(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& perVolume);
-    void toRows(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow);
+    /// Values on their way, one column each. One for every way, so that none changes its size in a steady run.
+    struct Columns {
+        Eigen::ArrayXXd ofCells, ofRows;
+    };
+    /// Sums over particles per volume of cells, and the means of cells at particles, by the void-fraction model. Collective.
+    void toCells(Columns& columns);
+    /// Leaves ofCells smoothed.
+    void toRows(Columns& columns);
 
     DemPort& dem_;
     const GasMesh& mesh_;
@@ -136,7 +140,7 @@ private:
     DragLawSet holdBeyond_ = 0;
     Scalars volume_;  ///< of the cells [m3]
     Scalars smoothed_;
-    Eigen::ArrayXXd ofCells_, smoothedCells_, ofRows_;  ///< values on the way, one column each
+    Columns solid_, seen_, laid_, back_;
     DragPoints dragPoints_;
     Scalars beta_;  ///< of each row by model A [kg/s]
     Points given_, owed_;

@@ -68,30 +68,39 @@ Index ParticleShares::rowsOutside() const
     return std::count(inside_.begin(), inside_.end(), 0);
 }
 
+Eigen::Map<Eigen::ArrayXXd> ParticleShares::pointValues(Index columns)
+{
+    const Index points = points_ * static_cast<Index>(inside_.size());
+    pointMemory_.resize(static_cast<std::size_t>(points * columns));
+    return {pointMemory_.data(), points, columns};
+}
+
 void ParticleShares::deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell)
 {
     if (points_ == 1) {
         locator_.deposit(ofRow, ofCell);
         return;
     }
-    pointValues_.resize(points_ * ofRow.rows(), ofRow.cols());
+    Eigen::Map<Eigen::ArrayXXd> ofPoint = pointValues(ofRow.cols());
     for (Index k = 0; k < ofRow.cols(); ++k) {
         for (Index row = 0; row < ofRow.rows(); ++row) {
             const int inside = inside_[static_cast<std::size_t>(row)];
-            pointValues_.col(k).segment(points_ * row, points_).setConstant(inside > 0 ? ofRow(row, k) / inside : 0);
+            ofPoint.col(k).segment(points_ * row, points_).setConstant(inside > 0 ? ofRow(row, k) / inside : 0);
         }
     }
-    locator_.deposit(pointValues_, ofCell);
+    locator_.deposit(ofPoint, ofCell);
 }
 
 void ParticleShares::gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
 {
     if (points_ == 1) {
+        ofRow.resize(static_cast<Index>(inside_.size()), ofCell.cols());
         locator_.gather(ofCell, ofRow);
         return;
     }
-    locator_.gather(ofCell, pointValues_);
-    meanOfPoints(pointValues_, ofRow);
+    Eigen::Map<Eigen::ArrayXXd> ofPoint = pointValues(ofCell.cols());
+    locator_.gather(ofCell, ofPoint);
+    meanOfPoints(ofPoint, ofRow);
 }
 
 void ParticleShares::gather(const DemParticles& particles, const std::function<Vector3(Index, const Vector3&)>& valueAt,
@@ -105,7 +114,7 @@ void ParticleShares::gather(const DemParticles& particles, const std::function<V
     meanOfPoints(pointVector_, ofRow);
 }
 
-template <class Values> void ParticleShares::meanOfPoints(const Values& ofPoint, Values& ofRow) const
+template <class OfPoint, class OfRow> void ParticleShares::meanOfPoints(const OfPoint& ofPoint, OfRow& ofRow) const
 {
     ofRow.setZero(static_cast<Index>(inside_.size()), ofPoint.cols());
     for (Index row = 0; row < ofRow.rows(); ++row) {

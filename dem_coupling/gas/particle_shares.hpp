@@ -38,14 +38,16 @@ public:
                 Points& ofRow);
 
 private:
+    /// Room for values of all points, one column each.
+    Eigen::Map<Eigen::ArrayXXd> pointValues(Index columns);
     /// Per row the mean of a value over its points in the mesh.
-    template <class Values> void meanOfPoints(const Values& ofPoint, Values& ofRow) const;
+    template <class OfPoint, class OfRow> void meanOfPoints(const OfPoint& ofPoint, OfRow& ofRow) const;
 
     MeshLocator locator_;
-    Index points_;             ///< per particle
-    std::vector<int> inside_;  ///< points of each row in the mesh
-    Points place_;             ///< of all points, row by row [m]
-    Eigen::ArrayXXd pointValues_;
+    Index points_;                     ///< per particle
+    std::vector<int> inside_;          ///< points of each row in the mesh
+    Points place_;                     ///< of all points, row by row [m]
+    std::vector<double> pointMemory_;  ///< kept for any number of columns
     Points pointVector_;
 };
 

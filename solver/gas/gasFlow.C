@@ -58,6 +58,10 @@ gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings, bool turbulent
     }
     result_.velocity.setZero(mesh_.nCells(), 3);
     result_.pressureForce.setZero(mesh_.nCells(), 3);
+    if (settings_.needsGasMotion()) {
+        result_.acceleration.setZero(mesh_.nCells(), 3);
+        result_.vorticity.setZero(mesh_.nCells(), 3);
+    }
     const volVectorField gradient(reconstruct_(fvc::snGrad(p_) * mesh_.magSf()));
     forAll(U_, cell)
     {

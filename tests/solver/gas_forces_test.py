@@ -2,6 +2,7 @@
 """What a gas does to single spheres: drag in balance, added mass, lift; and its turbulence. Through himFoam."""
 
 import math
+import re
 import tempfile
 import unittest
 
@@ -76,6 +77,23 @@ class Forces(GasCase):
         expected = 1.615*d*d*math.sqrt(gas*mu/rate)*(rate*place)*rate
         self.assertAlmostEqual(forces[0], 0, delta=0.01*expected)
         self.assertAlmostEqual(forces[1], expected, delta=0.02*expected)
+
+    def test_a_gas_that_goes_on_lifts_spheres_that_begin_anew(self):
+        """The gas comes from its last time, the spheres from the script: nothing tells them how the gas moved before."""
+        box = self.box([((0.01, 0.02, 0.03), (0.2, 0, 0), 1e-3, 1000.0)], step=1e-4, end=1e-3, more="virtualMass 0.5; lift Saffman;")
+        box.replace("system/controlDict", "writeInterval 100000;", "writeInterval 10;")
+        self.assertEqual(box.run().code, 0)
+        script = (box.path / "DEM/in.box").read_text()
+        script = script.replace('if "${startTime} > 0" then "read_restart DEM/restart/${startTime}" else "create_box 1 box"', "create_box 1 box")
+        script = re.sub(r'if "\$\{startTime\} == 0" then "(.*)"', r"\1", script)
+        (box.path / "DEM/in.box").write_text(script)
+        box.replace("system/controlDict", "startTime 0;", "startTime 0.001;")
+        box.replace("system/controlDict", "endTime 0.001;", "endTime 0.002;")
+        result = box.run()
+        self.assertEqual(result.code, 0, result.text[-2000:])
+        rows = box.table("0.001")
+        self.assertEqual(len(rows), 10)
+        self.assertTrue(all(math.isfinite(value) for row in rows for value in row.values()))
 
     def test_the_log_warns_of_particles_beyond_what_drag_law_and_lift_have_been_shown_for(self):
         """The drag of single spheres in a cell that is a quarter full, and the lift of a sphere at Re = 200; none of a grain alone."""

@@ -202,16 +202,21 @@ void saySolutions(foamPoissonMesh& poisson)
 }
 
 /// Of points in and around every cell: the share that the cell surely holds, and how many of those find() gives to another.
-void saySurelyHeld(const foamPoissonMesh& poisson)
+void saySurelyHeld(const Foam::fvMesh& mesh, const foamPoissonMesh& poisson)
 {
-    double asked = 0, held = 0, elsewhere = 0;
-    const Box bounds = poisson.localBounds();
-    const double size = bounds.empty() ? 0 : std::cbrt(bounds.size().prod() / static_cast<double>(poisson.cellCount()));
-    for (Index cell = 0; cell < poisson.cellCount(); ++cell) {
-        // Multiples of 1/8 meet the faces of boxes.
+    double asked = 0;
+    double held = 0;
+    double elsewhere = 0;
+    forAll(mesh.cells(), cell)
+    {
+        Box box;
+        for (const Foam::label point : mesh.cellPoints()[cell]) {
+            box.extend(toEigen(mesh.points()[point]));
+        }
+        // Eighths of the edges, so that some points lie on the faces of boxes.
         for (int n = 0; n < 11 * 11 * 11; ++n) {
-            const Vector3 step(n % 11 - 5, n / 11 % 11 - 5, n / 121 - 5);
-            const Vector3 point = poisson.cellCentre(cell) + 0.125 * size * step;
+            const Vector3 eighths(n % 11 - 5, n / 11 % 11 - 5, n / 121 - 5);
+            const Vector3 point = 0.5 * (box.lower + box.upper) + 0.125 * eighths.cwiseProduct(box.size());
             asked += 1;
             if (poisson.surelyHolds(cell, point)) {
                 held += 1;
@@ -249,7 +254,7 @@ int main(int argc, char* argv[])
     say("openness", openness(poisson->arrays()));
     saySizes(poisson->arrays());
     sayCoupled(poisson->arrays());
-    saySurelyHeld(*poisson);
+    saySurelyHeld(mesh(), *poisson);
     saySolutions(*poisson);
     return 0;
 }

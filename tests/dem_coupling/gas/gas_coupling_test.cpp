@@ -92,13 +92,18 @@ DemParticles oneSphere()
 class Shear : public VelocityProfile {
 public:
     explicit Shear(const CellMesh& mesh) : mesh_(mesh) {}
-    void update(const Points&) override { ++updates; }
+    void update(const Points& velocity) override
+    {
+        ++updates;
+        updatedBy = velocity;
+    }
     Vector3 deviation(Index cell, const Vector3& point) const override
     {
         return rate * (point - mesh_.cellCentre(cell))[1] * Vector3::UnitX();
     }
     double rate = 300;
     int updates = 0;
+    Points updatedBy;
 
 private:
     const CellMesh& mesh_;
@@ -332,6 +337,31 @@ TEST(GasCoupling, givesAParticleTheVelocityOfItsPlaceAndTheGasTheSameForceByEver
 }
 
 class Books : public testing::TestWithParam<VoidFractionModel> {};
+
+TEST(GasCoupling, makesTheProfileOfTheVelocitiesThatParticlesFeel)
+{
+    const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
+    for (const VoidFractionModel model : {VoidFractionModel::centre, VoidFractionModel::smoothed}) {
+        const GasSettings settings = air(model);
+        FakeDem dem(oneSphere(), box, {false, false, false}, step, MPI_COMM_WORLD);
+        Shear shear(mesh);
+        GasCoupling coupling(dem, mesh, settings, MPI_COMM_WORLD, &shear);
+        Points velocity(mesh.cellCount(), 3);
+        for (Index cell = 0; cell < mesh.cellCount(); ++cell) {
+            velocity.row(cell) = (100 * mesh.cellCentre(cell)).array().sin().transpose();
+        }
+        coupling.collect(dem.mine, velocity);
+        ASSERT_EQ(shear.updatedBy.rows(), mesh.cellCount());
+        for (int axis = 0; axis < 3; ++axis) {
+            Scalars expected = velocity.col(axis);
+            if (model == VoidFractionModel::smoothed) {
+                mesh.smooth(expected, settings.smoothingLength);
+                EXPECT_TRUE(expected.size() == 0 || (expected - velocity.col(axis)).abs().maxCoeff() > 1e-3);
+            }
+            EXPECT_TRUE((shear.updatedBy.col(axis) == expected).all()) << axis;
+        }
+    }
+}
 
 TEST_P(Books, keepTheMomentumOfGasParticlesAndWhatWasTakenOut)
 {
