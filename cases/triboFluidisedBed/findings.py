@@ -60,12 +60,15 @@ def findings(runs, base):
     found = []
     for strength, group in same_start(runs).items():
         for run in group:
-            if run.bed["chargingTime"][-1] < 4*EARLY or not np.isfinite(run.bed["tau"][-1]):
+            if run.bed["chargingTime"][-1] < 4*EARLY - 0.1:
                 found.append((f"{run.name}: a t = {run.bed['chargingTime'][-1]:.0f} s, below {4*EARLY:g} s: fit and wall layer are not judged", None))
                 continue
-            off = run.bed["fitDeviation"][-1]/run.bed["chargePerMass"][-1]
-            found.append((f"{run.name}: S6.1 fits the charge to {100*off:.1f} % RMS; {100*run.bed['chargePerMass'][-1]/run.bed['saturation'][-1]:.0f} % of "
-                          f"its saturation after {run.bed['chargingTime'][-1]/run.bed['tau'][-1]:.1f} tau", off <= GOOD_FIT))
+            if np.isfinite(run.bed["tau"][-1]):
+                off = run.bed["fitDeviation"][-1]/run.bed["chargePerMass"][-1]
+                found.append((f"{run.name}: S6.1 fits the charge to {100*off:.1f} % RMS; {100*run.bed['chargePerMass'][-1]/run.bed['saturation'][-1]:.0f} % of "
+                              f"its saturation after {run.bed['chargingTime'][-1]/run.bed['tau'][-1]:.1f} tau", off <= GOOD_FIT))
+            else:
+                found.append((f"{run.name}: the charge does not bend yet: no fit by S6.1", None))
             layer = run.late("wallParticles")/run.bed["particles"][-1]
             slow = run.late("wallSpeed")/base.late("wallSpeed", 0.3)
             stands = layer > FULLER*base.late("wallParticles", 0.3)/base.bed["particles"][-1] and slow < FROZEN
