@@ -44,7 +44,7 @@ class Run:
         return np.mean(self.bed[name][self.time > self.time[-1] - seconds])
 
     def segregation(self, charging_time=np.inf):
-        """Mean charge within 1.25 diameters of a wall over that of the rest, in the last time-averaged profile up to a charging time [s]."""
+        """Mean charge of the first layer, centres within a diameter of a wall, over that of the rest, in the last time-averaged profile up to a charging time [s]."""
         until = np.max(self.time[self.bed["chargingTime"] < charging_time + 0.1])
         profiles = [path for path in glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat")
                     if float(path.split("/")[-2]) <= until]
@@ -53,7 +53,7 @@ class Run:
         last = max(profiles, key=lambda p: float(p.split("/")[-2]))
         distance, density, charge = np.loadtxt(last, usecols=(0, 1, 2), unpack=True)
         share = density*(distance[-1] + distance[0] - distance)     # in a square column the shells get smaller inwards
-        layer = distance < 1.25*DIAMETER
+        layer = distance < DIAMETER
         mean = [np.sum(share[k]*charge[k])/np.sum(share[k]) for k in (layer, ~layer)]
         return mean[0]/mean[1] if mean[1] > 0 else np.nan
 
