@@ -6,8 +6,7 @@ import numpy as np
 SAME_RATE = 0.10        # charges at equal a t may differ by this share between accelerations
 GOOD_FIT = 0.05         # deviation of S6.1's curve from the charge, root mean square, over the last charge
 EARLY = 5.0             # [s] of a t before which a few first contacts make the charge
-FULLER = 2.0            # a layer that stands holds this many times the particles of the uncharged one ...
-FROZEN = 0.5            # ... at less than this share of its RMS speed
+FROZEN = 0.5            # a layer that stands holds more particles than the uncharged one (a full one not twice as many) at less than this share of its RMS speed
 MUCH_MORE = 1.5         # uniform charge loses this many times the pressure drop of as much charge that the walls have given
 
 
@@ -71,7 +70,7 @@ def findings(runs, base):
                 found.append((f"{run.name}: the charge does not bend yet: no fit by S6.1", None))
             layer = run.late("wallParticles")/run.bed["particles"][-1]
             slow = run.late("wallSpeed")/base.late("wallSpeed", 0.3)
-            stands = layer > FULLER*base.late("wallParticles", 0.3)/base.bed["particles"][-1] and slow < FROZEN
+            stands = layer > base.late("wallParticles", 0.3)/base.bed["particles"][-1] and slow < FROZEN
             found.append((f"{run.name}: {100*layer:.0f} % of the particles in the wall layer at {slow:.2f} of the uncharged speed: the layer "
                           f"{'stands' if stands else 'moves'}", stands if strength >= 4 else None))
         # A run may end a gas step short of its time.

@@ -130,6 +130,13 @@ void checkPatches(const Foam::volVectorField& U, const Foam::volScalarField& p, 
                            "found " + pressure.type()
                                + ", but the velocity is given there, and the pressure must follow "
                                  "from it. Write type fixedFluxPressure; value uniform 0;");
+        } else if (velocityGiven && pressure.fixesValue() && velocity.type().compare(0, 8, "pressure") != 0) {
+            complaints.add(time + "/p: " + patch.name(),
+                           "found " + pressure.type() + ", but " + time + "/U gives the velocity there by "
+                               + velocity.type()
+                               + ": gas would pass as the pressure says and not with that velocity. Write type "
+                                 "fixedFluxPressure; value uniform 0; or free the velocity (zeroGradient or "
+                                 "pressureInletOutletVelocity in U).");
         } else if (!velocityGiven && !pressure.fixesValue()) {
             complaints.add(
                 time + "/U: " + patch.name(),
@@ -199,6 +206,12 @@ void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const Dem
         complaints.add(std::string(gasFile) + ": maxDeltaT",
                        "the largest gas step " + shown(gas.maxDeltaT) + " s is below the DEM step "
                            + shown(dem.timeStep()) + " s. Raise it, or lower timestep in the DEM script.");
+    }
+    if (gas.adjustTimeStep && gas.maxDeltaT > 0 && mesh.time().deltaTValue() > gas.maxDeltaT * (1 + 1e-9)) {
+        complaints.add("system/controlDict: deltaT",
+                       "found " + shown(mesh.time().deltaTValue())
+                           + " s for the first gas step, but maxDeltaT in constant/gasProperties allows "
+                           + shown(gas.maxDeltaT) + " s. Write at most that.");
     }
     const double largest = 2 * dem.largestRadius();
     const double cell = std::cbrt(Foam::gMin(mesh.cellVolumes()));

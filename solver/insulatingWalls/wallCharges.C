@@ -321,14 +321,7 @@ void wallCharges::write(const Foam::Time& runTime)
     }
     file << "</DataArray>\n</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 
-    written_.emplace_back(name, runTime.value());
-    std::ofstream series(folder / "wallCharge.vtp.series");
-    series << "{ \"file-series-version\" : \"1.0\", \"files\" : [\n";
-    for (std::size_t i = 0; i < written_.size(); ++i) {
-        series << "{ \"name\" : \"" << written_[i].first << "\", \"time\" : " << written_[i].second << " }"
-               << (i + 1 < written_.size() ? ",\n" : "\n");
-    }
-    series << "] }\n";
+    series_.add(folder, "wallCharge", name, runTime.value());
 }
 
 }  // namespace him

@@ -44,8 +44,7 @@ void particleVtpWriter::write(const DemParticles& particles, const Points& field
     if (exchange_.rank() == 0) {
         const Foam::fileName file = runTime_.timeName() + ".vtp";
         writeFile(records, folder_ / file);
-        written_.emplace_back(file, runTime_.value());
-        writeSeries();
+        series_.add(folder_, "particles", file, runTime_.value());
     }
 }
 
@@ -70,17 +69,6 @@ void particleVtpWriter::writeFile(const std::vector<particleRecord>& records, co
     writeArray(stream, records, "Int64", "connectivity", 1, number);
     writeArray(stream, records, "Int64", "offsets", 1, [&](const particleRecord& r) { return number(r) + 1; });
     stream << "</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-}
-
-void particleVtpWriter::writeSeries() const
-{
-    std::ofstream stream(folder_ / "particles.vtp.series");
-    stream << "{ \"file-series-version\" : \"1.0\", \"files\" : [\n";
-    for (std::size_t i = 0; i < written_.size(); ++i) {
-        stream << "{ \"name\" : \"" << written_[i].first << "\", \"time\" : " << written_[i].second << " }"
-               << (i + 1 < written_.size() ? ",\n" : "\n");
-    }
-    stream << "] }\n";
 }
 
 }  // namespace him

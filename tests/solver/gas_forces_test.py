@@ -116,7 +116,7 @@ class Forces(GasCase):
         self.assertEqual(result.code, 1)
         self.assertIn("gravity: found (0 0 9.81), but the DEM script has (0 0 -9.81)", " ".join(result.text.split()))
 
-    def test_refuses_what_no_void_fraction_model_can_take(self):
+    def test_refuses_a_sphere_larger_than_each_void_fraction_model_can_take(self):
         for model, text in (("centre;", "`centre` lays it into one cell; allowed is 1."),
                             ("divided;", "`divided` lays a 15th of it into one cell; allowed is 2."),
                             ("smoothed; smoothingLength 1e-3;", "and is spread over 0.001 m only. Write at least its diameter.")):
@@ -217,7 +217,7 @@ class Turbulence(GasCase):
         self.assertAlmostEqual(left[0], left[1], delta=1e-6)
         self.assertAlmostEqual(left[0], (1 + rate*1e-3)**-50, delta=1e-4)
 
-    def test_every_model_that_is_offered_starts(self):
+    def test_the_other_models_are_read_and_their_fields_found(self):
         box = self.turbulent(0.01, 0.1, walls=(), active="on")
         result = box.run("-dry-run")
         self.assertEqual(result.code, 0, result.text[-2000:])

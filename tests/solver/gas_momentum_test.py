@@ -131,6 +131,25 @@ class Momentum(unittest.TestCase):
             wrong.append(max(row["mismatch"] for row in rows[20:]))
         self.assertLess(wrong[1], 0.05*wrong[0])
 
+    def test_the_gas_step_follows_the_courant_number_in_whole_dem_steps_up_to_its_bound(self):
+        for most, bound in ((0.05, 2e-4), (0.05, 5e-5)):
+            with self.subTest(bound=bound):
+                rows = self.box(spheres(6, 0.02, 3e-3), size=0.02, cells=4, U="uniform (1 0.5 -0.2)", step=2e-5, end=8e-3,
+                                more="adjustTimeStep yes; maxCo %r; maxDeltaT %r;" % (most, bound)).rows()
+                steps = [row["deltaT"] for row in rows]
+                for step in steps:
+                    self.assertAlmostEqual(step/1e-5, round(step/1e-5), delta=1e-6)
+                self.assertLess(max(steps), bound*(1 + 1e-9))
+                # The Courant number of a step is known after it: where it was too large, the next step would have kept it.
+                above = [(row, after) for row, after in zip(rows, rows[1:]) if row["Co"] > most]
+                for row, after in above:
+                    self.assertLessEqual(after["deltaT"], max(row["deltaT"]*most/row["Co"], 1e-5)*(1 + 1e-9), "at %g s" % row["Time"])
+                self.assertLess(len(above), len(rows)/4)
+                if bound == 2e-4:
+                    self.assertGreater(max(row["Co"] for row in rows[len(rows)//2:]), 0.8*most)
+                else:
+                    self.assertEqual(round(max(steps)/1e-5), 5)
+
     def test_a_run_whose_step_follows_the_courant_number_continues_bit_for_bit(self):
         box = self.box(spheres(6, 0.02, 3e-3), size=0.02, cells=4, U="uniform (1 0.5 -0.2)", step=2e-5, end=8e-3,
                        more="adjustTimeStep yes; maxCo 0.05; maxDeltaT 2e-4;")

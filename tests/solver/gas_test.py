@@ -25,6 +25,10 @@ class Gas(unittest.TestCase):
     def start_at(self, speed):
         self.case.replace("DEM/in.settling", "density 960", "density 960 vz %r" % -speed)
 
+    def gas_entry(self, text):
+        with open(self.case.path / "constant/gasProperties", "a") as file:
+            file.write(text + "\n")
+
     def table(self, start="0"):
         lines = (self.case.path / "postProcessing/gas" / start / "gas.dat").read_text().splitlines()
         names = [line for line in lines if line.startswith("# Time")][0][2:].split()
@@ -176,9 +180,24 @@ class Gas(unittest.TestCase):
         self.case.replace("system/controlDict", "deltaT          5e-4;", "deltaT          5e-6;")
         self.refused("deltaT: found 5e-06 s, but the DEM takes steps of 1e-05 s")
 
-    def test_refuses_a_particle_larger_than_a_cell_that_is_to_take_it_whole(self):
+    def test_refuses_a_particle_larger_than_the_stated_share_of_a_cell(self):
         self.case.replace("constant/gasProperties", "divided;", "centre; largestParticle 0.01;")
         self.refused("the largest particle, 0.000277 m, is 0.0346 times the smallest cell, 0.008 m")
+
+    def test_refuses_a_velocity_and_a_pressure_that_are_both_given(self):
+        self.case.replace("0/p", "floor { type fixedFluxPressure; value uniform 0; }", "floor { type fixedValue; value uniform 0; }")
+        self.refused("0/p: floor: found fixedValue, but 0/U gives the velocity there by noSlip")
+
+    def test_refuses_bounds_of_the_gas_step_that_cannot_be_kept(self):
+        self.gas_entry("adjustTimeStep yes; maxDeltaT 4e-4;")
+        self.refused("system/controlDict: deltaT: found 0.0005 s for the first gas step", "allows 0.0004 s")
+        self.case.replace("constant/gasProperties", "maxDeltaT 4e-4;", "maxDeltaT 5e-6;")
+        self.refused("maxDeltaT: the largest gas step 5e-06 s is below the DEM step 1e-05 s")
+
+    def test_refuses_settings_without_meaning(self):
+        for entry, text in (("smallestVoidFraction 1;", "smallestVoidFraction: found 1"), ("virtualMass -0.5;", "virtualMass: found -0.5")):
+            self.gas_entry(entry)
+            self.refused(text)
 
     def test_refuses_a_viscosity_that_is_not_positive(self):
         self.case.replace("constant/gasProperties", "viscosity       1.766e-5;", "viscosity       -1;")

@@ -236,7 +236,7 @@ class InsulatingWalls(unittest.TestCase):
             for z, field, value in zip(heights, self.fields_at(method, heights, entry), exact):
                 self.assertAlmostEqual(field / value, 1, delta=error, msg="%s at %g" % (method, z))
 
-    def test_wall_charge_that_a_run_finds_is_kept_whole_and_cut(self):
+    def test_wall_charge_is_written_with_all_its_digits(self):
         case = slabs("%s/whole" % self.folder)
         probe(case, "middle 1.2345678901234567e-6;")
         written = (case.path / "0/wallSurfaceCharge").read_text()

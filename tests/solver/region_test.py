@@ -36,7 +36,7 @@ class RegionElectric(unittest.TestCase):
         row.pop("energy")  # nan: him has none
         return row
 
-    def test_the_region_is_used_and_not_the_mesh_of_the_gas(self):
+    def test_the_region_is_used_and_not_the_mesh_beside_it(self):
         both = self.charges(self.case("both", (4, 4, 4), (12, 11, 13)))
         self.assertEqual(both, self.charges(self.case("region", None, (12, 11, 13))))
         only = self.case("gas", (12, 11, 13), None)

@@ -81,6 +81,9 @@ class WallCharges(CaseTests):
         script.write_text(continuing(script.read_text()))
         row = self.last_row(straight)
         faces = self.faces(straight, "0.004")
+        index = straight.path / "postProcessing/wallCharge/wallCharge.vtp.series"
+        listed = index.read_text()
+        self.assertIn("0.002.vtp", listed)
         straight.replace("system/controlDict", "startTime 0;", "startTime 0.002;")
         again = straight.run()
         self.assertEqual(again.code, 0, again.text[-2000:])
@@ -88,6 +91,15 @@ class WallCharges(CaseTests):
         self.assertEqual(self.faces(straight, "0.004"), faces)
         self.assertEqual(more["wallFaces"], row["wallFaces"])
         self.assertAlmostEqual(more["wallFaceError"], 0, delta=1e-12 * 1e-10)
+        self.assertEqual(index.read_text(), listed)
+        # Cut, with the charge that is there: the faces of the wall are on one rank with one half, and on the other with the other.
+        for ranks, pieces in ((2, (2, 1, 1)), (4, (2, 2, 1))):
+            straight.decompose(ranks, pieces)
+            again = straight.run(ranks=ranks)
+            self.assertEqual(again.code, 0, again.text[-2000:])
+            for centre, charge in self.faces(straight, "0.004").items():
+                self.assertAlmostEqual(charge, faces[centre], delta=1e-9 * max(map(abs, faces.values())))
+            self.assertAlmostEqual(straight.charge_table("0.002")[1][-1]["wallFaceError"], 0, delta=1e-12 * 1e-10)
 
     def test_a_dem_wall_off_the_faces_is_refused(self):
         result = bed(self.folder, height=INTERFACE + 0.004).run("-dry-run")

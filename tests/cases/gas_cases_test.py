@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases with gas, in copies. Usage: gas_cases_test.py <case> [test]"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+NAME = sys.argv.pop(1)
+
+
+def rows(file):
+    lines = file.read_text().splitlines()
+    names = [line for line in lines if line.startswith("# Time")][0][2:].split()
+    return [dict(zip(names, map(float, line.split()))) for line in lines if not line.startswith("#")]
+
+
+class GasCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        root = pathlib.Path(folder.name)
+        shutil.copy(CASES / "RunFunctions", root)
+        self.path = root / NAME
+        shutil.copytree(CASES / NAME, self.path, ignore=shutil.ignore_patterns("runs", "postProcessing", "log.*", "polyMesh"))
+        if (self.path / "doc").exists():
+            shutil.rmtree(self.path / "doc")
+
+    def allrun(self, *options):
+        return subprocess.run(["./Allrun", *options], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              timeout=580)
+
+
+@unittest.skipIf(NAME == "triboFluidisedBed", "its whole runs take long")
+class Whole(GasCase):
+    def test_the_case_holds_its_claims(self):
+        done = self.allrun()
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:])
+        self.assertNotIn("FAILED", done.stdout)
+        self.assertIn("ok", done.stdout)
+
+
+@unittest.skipUnless(NAME == "triboFluidisedBed", "of the charged bed only")
+class ChargedBed(GasCase):
+    """Gas, a field on its own mesh, insulating walls, charging and fixed charge together, cut for two ranks and then on one."""
+
+    SHORT = ("-small", "-unchargedTime", "0.01", "-uniformTime", "0.002")
+
+    def test_its_three_runs_follow_one_another_and_go_on_on_another_number_of_ranks(self):
+        first = self.allrun(*self.SHORT, "-chargingTime", "0.05", "-np", "2")
+        # A bed that has just begun to lift does not carry its weight yet: that, and only that, is not as it will be.
+        failed = [line for line in first.stdout.splitlines() if "FAILED" in line]
+        self.assertEqual(len(failed), 1, first.stdout[-3000:])
+        self.assertIn("2500 particles", failed[0])
+        self.assertEqual(first.returncode, 1)
+        runs = self.path / "runs/small"
+        charged, uniform = runs / "a10-eg4", runs / "a10-eg4-uniform"
+        self.assertEqual(sorted(run.name for run in runs.iterdir()), ["a10-eg4", "a10-eg4-uniform", "uncharged"])
+        self.assertFalse((runs / "uncharged/constant/electrostaticProperties").exists())
+
+        def series(run, name, of):
+            folders = sorted((run / "postProcessing" / name).iterdir(), key=lambda folder: float(folder.name))
+            return [row for folder in folders for row in rows(folder / of)]
+
+        ledger = series(charged, "charge", "charge.dat")
+        glass = sum(ledger[-1][wall] for wall in ("xlo", "xhi", "ylo", "yhi"))
+        self.assertGreater(ledger[-1]["total"], 0)
+        self.assertAlmostEqual(glass/-ledger[-1]["total"], 1, delta=1e-9)       # what the glass has lost, the particles have
+        self.assertAlmostEqual(ledger[-1]["wallFaces"]/glass, 1, delta=1e-9)
+        spread = series(uniform, "charge", "charge.dat")
+        for row in spread:
+            self.assertAlmostEqual(row["total"]/ledger[-1]["total"], 1, delta=1e-9)
+        self.assertEqual(spread[-1]["min"], spread[-1]["max"])
+
+        again = self.allrun(*self.SHORT, "-chargingTime", "0.08", "-np", "1")
+        self.assertIn(os.fspath(runs / "uncharged") + " has been run already", again.stdout)
+        self.assertIn(os.fspath(uniform) + " has been run already", again.stdout)
+        longer = series(charged, "charge", "charge.dat")
+        self.assertGreater(longer[-1]["Time"], ledger[-1]["Time"])
+        self.assertGreater(longer[-1]["total"], ledger[-1]["total"])
+        self.assertLess(abs(longer[-1]["closureError"]), 1e-9*longer[-1]["total"])
+        self.assertLess(abs(longer[-1]["wallFaceError"]), 1e-9*longer[-1]["total"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
