@@ -45,7 +45,7 @@ class Run:
 
     def segregation(self, charging_time=np.inf):
         """Mean charge of the first layer, centres within a diameter of a wall, over that of the rest, in the last time-averaged profile up to a charging time [s]."""
-        until = np.max(self.time[self.bed["chargingTime"] < charging_time + 0.1])
+        until = np.max(self.time[self.bed["chargingTime"] < charging_time + 0.1]) + 1e-3      # samples of 1 ms
         profiles = [path for path in glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat")
                     if float(path.split("/")[-2]) <= until]
         if not profiles:        # of a run that was stopped before its first checkpoint
@@ -125,7 +125,7 @@ def main():
         ok = ok and worst < 2
     for sentence, so in findings(runs, base):
         print(f"{sentence}: {'as found' if so is None else 'ok' if so else 'FAILED'}")
-        ok = ok and so is not False
+        ok = ok and (so is None or bool(so))        # numpy's False is not Python's
     os.makedirs("doc", exist_ok=True)
     draw(size, runs, weight)
     return 0 if ok else 1
