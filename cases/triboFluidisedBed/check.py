@@ -82,12 +82,12 @@ def draw(size, runs, weight):
         colour = f"C{number}"
         if run.acceleration and not run.uniform:
             axes[0].plot(run.bed["chargingTime"], 1e6*run.bed["chargePerMass"], lw=1, label=run.name, color=colour)
-        width = min(200, len(run.time))     # samples of 1 ms
+        width = min(50, len(run.time))      # samples of 1 ms
         smooth = np.convolve(run.bed["pressureDrop"], np.ones(width)/width, mode="valid")
         axes[1].plot(run.time[width - 1:], smooth/weight, lw=1, label=run.name, color=colour)
         axes[2].plot(run.time, run.bed["wallParticles"], lw=0.6, label=run.name, color=colour)
     axes[0].set(xlabel="charging time a t [s]", ylabel="charge per mass [uC/kg]")
-    axes[1].set(xlabel="time [s]", ylabel="pressure drop over weight/area, mean of 0.2 s", ylim=(0, 1.3))
+    axes[1].set(xlabel="time [s]", ylabel="pressure drop over weight/area, mean of 0.05 s", ylim=(0, 1.3))
     axes[2].set(xlabel="time [s]", ylabel="particles in the wall layer")
     for axis in axes:
         axis.legend(fontsize=7)
