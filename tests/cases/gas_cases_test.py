@@ -13,6 +13,14 @@ CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 NAME = sys.argv.pop(1)
 
 
+def python_with_numpy():
+    """As the cases' scripts choose it."""
+    for python in ("/usr/bin/python3", "python3"):
+        if subprocess.run([python, "-c", "import numpy, matplotlib"], stderr=subprocess.DEVNULL).returncode == 0:
+            return python
+    raise RuntimeError("no python3 with numpy and matplotlib")
+
+
 def rows(file):
     lines = file.read_text().splitlines()
     names = [line for line in lines if line.startswith("# Time")][0][2:].split()
@@ -42,6 +50,38 @@ class Whole(GasCase):
         self.assertEqual(done.returncode, 0, done.stdout[-3000:])
         self.assertNotIn("FAILED", done.stdout)
         self.assertIn("ok", done.stdout)
+
+
+@unittest.skipUnless(NAME == "triboFluidisedBed", "of the charged bed only")
+class Findings(GasCase):
+    def findings(self, dynamic, uniform):
+        """What is found of two runs of a wide bed that lose these shares of the pressure drop, with equal charge."""
+        code = """
+import sys, types
+import numpy as np
+from check import holds
+from findings import findings
+def run(name, begin, end, lost, acceleration, uniform):
+    time = np.arange(begin, end, 1e-3)
+    same = np.ones_like(time)
+    bed = {"pressureDrop": (1 - lost*np.minimum(time/1.5, 1))*100, "chargePerMass": 2e-5*time, "chargingTime": 10*time, "particles": 20000*same,
+           "tau": np.nan*same, "wallParticles": 9000*same, "wallSpeed": 0.01*same}
+    late = lambda name, seconds=0.5: np.mean(bed[name][time > time[-1] - seconds])
+    return types.SimpleNamespace(name=name, time=time, bed=bed, late=late, acceleration=acceleration, uniform=uniform, strength=4)
+base = run("uncharged", 0, 0.5, 0, 0, False)
+runs = [run("a10-eg4", 0, 1.5, %r, 10, False), run("a10-eg4-uniform", 1.5, 1.7, %r, 10, True)]
+for sentence, so in findings(runs, base):
+    print(sentence, "holds" if holds(so) else "does not hold")
+""" % (dynamic, uniform)
+        done = subprocess.run([python_with_numpy(), "-c", code], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return [line for line in done.stdout.splitlines() if "uniformly" in line][0]
+
+    def test_uniform_charge_must_lose_much_more_at_the_charge_of_the_end(self):
+        # A mean over the last 0.5 s would see 0.17 in place of 0.2, and let 0.28 pass.
+        self.assertTrue(self.findings(0.2, 0.31).endswith(" holds"))
+        self.assertIn("dynamic charge loses 20.0", self.findings(0.2, 0.31))
+        self.assertTrue(self.findings(0.2, 0.28).endswith("does not hold"))
 
 
 @unittest.skipUnless(NAME == "triboFluidisedBed", "of the charged bed only")
