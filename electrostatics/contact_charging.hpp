@@ -32,13 +32,6 @@ inline double relaxationFactorOf(double relaxation)
     return -std::expm1(-relaxation) / relaxation;
 }
 
-/// Charge [C] that an explicit step moves by a net drive [V/m]: eps kappa a a_corr dA drive (R16 with R28, S2.10), of factors that are
-/// known to be positive. Inline: charging calls it for every contact.
-inline double explicitGainOf(double drive, double efficiency, double areaGrowth, double permittivity)
-{
-    return permittivity * efficiency * areaGrowth * drive;
-}
-
 /// Charge [C] that one volt per metre drives through the grown area, eps kappa a a_corr dA (R16, R28, S2.10), of factors that are known
 /// to be positive. Inline: charging calls it for every contact.
 inline double conductanceOf(double efficiency, double areaGrowth, double permittivity)

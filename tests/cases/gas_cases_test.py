@@ -2,14 +2,12 @@
 """Cases with gas, in copies. Usage: gas_cases_test.py <case> [test]"""
 
 import os
-import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+from case_copy import copy_case
+
 NAME = sys.argv.pop(1)
 
 
@@ -29,14 +27,7 @@ def rows(file):
 
 class GasCase(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        root = pathlib.Path(folder.name)
-        shutil.copy(CASES / "RunFunctions", root)
-        self.path = root / NAME
-        shutil.copytree(CASES / NAME, self.path, ignore=shutil.ignore_patterns("runs", "postProcessing", "log.*", "polyMesh"))
-        if (self.path / "doc").exists():
-            shutil.rmtree(self.path / "doc")
+        self.path = copy_case(self, NAME)
 
     def allrun(self, *options):
         return subprocess.run(["./Allrun", *options], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,

@@ -2,26 +2,19 @@
 """The shaker's short version passes its own check, and charges alike on one and two ranks."""
 
 import math
-import pathlib
 import re
-import shutil
 import statistics
 import subprocess
-import tempfile
 import unittest
 
-CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+from case_copy import copy_case
+
 SEEDS = (10007, 10009, 10037, 10039, 10061)   # LIGGGHTS wants primes above 10000
 
 
 class VibratoryShaker(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        copy = pathlib.Path(folder.name)
-        shutil.copy(CASES / "RunFunctions", copy)
-        self.case = copy / "vibratoryShaker"
-        shutil.copytree(CASES / "vibratoryShaker", self.case, ignore=shutil.ignore_patterns("runs", "study", "doc", "*.png"))
+        self.case = copy_case(self, "vibratoryShaker")
 
     def run_case(self, *options):
         done = subprocess.run(["./Allrun", *options], cwd=self.case, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

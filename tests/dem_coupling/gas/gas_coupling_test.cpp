@@ -336,8 +336,6 @@ TEST(GasCoupling, givesAParticleTheVelocityOfItsPlaceAndTheGasTheSameForceByEver
     }
 }
 
-class Books : public testing::TestWithParam<VoidFractionModel> {};
-
 TEST(GasCoupling, makesTheProfileOfTheVelocitiesThatParticlesFeel)
 {
     const FakeGasMesh mesh(box, cells, MPI_COMM_WORLD);
@@ -362,6 +360,8 @@ TEST(GasCoupling, makesTheProfileOfTheVelocitiesThatParticlesFeel)
         }
     }
 }
+
+class Books : public testing::TestWithParam<VoidFractionModel> {};
 
 TEST_P(Books, keepTheMomentumOfGasParticlesAndWhatWasTakenOut)
 {
