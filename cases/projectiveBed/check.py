@@ -10,6 +10,9 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from lagrangianCloud import charges  # noqa: E402
+
 NAMES = ("plain", "accelerated", "projective")
 START = "0.3"
 ENDS = {"plain": "0.7", "accelerated": "0.4", "projective": "0.4"}
@@ -23,14 +26,6 @@ def table(path):
     return {name: values[:, n] for n, name in enumerate(names)}
 
 
-def charges(run, time):
-    """Charges of the written particles [C]; the cloud is binary."""
-    data = (run/time/"electric/lagrangian/particles/charge").read_bytes()
-    count = int(re.search(rb"\n(\d+)\s*\n?\(", data).group(1))
-    at = re.search(rb"\n\d+\s*\n?\(", data).end()
-    return np.frombuffer(data, np.float64, count, at)
-
-
 def seconds(run):
     return float(re.findall(r"wall-clock time \[s\] +(\S+)", (run/"log.himFoam").read_text())[-1])
 
@@ -40,7 +35,7 @@ def main():
     print(f"{'':14s}{'mean [fC]':>12s}{'spread [fC]':>12s}{'largest [fC]':>13s}{'wall layer [fC]':>16s}{'time [s]':>10s}")
     for name in NAMES:
         run = pathlib.Path("runs")/name
-        charge = charges(run, ENDS[name])
+        charge = charges(run/ENDS[name])
         row = table(run/"postProcessing/particleStatistics"/START/"bed.dat")
         profile = np.loadtxt(run/"postProcessing/particleStatistics"/ENDS[name]/"bedProfile.dat")
         found[name] = {"mean": charge.mean(), "spread": charge.std(), "charge": charge, "row": row}

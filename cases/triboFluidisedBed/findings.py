@@ -11,9 +11,9 @@ MUCH_MORE = 1.5         # uniform charge loses this many times the pressure drop
 
 
 def same_start(runs):
-    """Dynamic runs by e/g, in order of a."""
+    """Dynamic runs without leaps by e/g, in order of a."""
     groups = {}
-    for run in sorted((run for run in runs if run.acceleration and not run.uniform), key=lambda run: run.acceleration):
+    for run in sorted((run for run in runs if run.acceleration and not run.uniform and not run.leap), key=lambda run: run.acceleration):
         groups.setdefault(run.strength, []).append(run)
     return groups
 

@@ -9,11 +9,12 @@ CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 
 
 def copy_case(test, name):
-    """The path of a copy of the case's inputs, beside RunFunctions, that lives as long as the test."""
+    """The path of a copy of the case's inputs, beside what cases share, that lives as long as the test."""
     folder = tempfile.TemporaryDirectory()
     test.addCleanup(folder.cleanup)
     root = pathlib.Path(folder.name)
-    shutil.copy(CASES / "RunFunctions", root)
+    for shared in (CASES / "RunFunctions", *CASES.glob("*.py")):
+        shutil.copy(shared, root)
     results = shutil.ignore_patterns("runs", "study", "doc", "*.png", "postProcessing", "log.*", "polyMesh")
     shutil.copytree(CASES / name, root / name, ignore=results)
     return root / name

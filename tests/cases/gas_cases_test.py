@@ -118,6 +118,22 @@ class ChargedBed(GasCase):
         self.assertLess(abs(longer[-1]["closureError"]), 1e-9*longer[-1]["total"])
         self.assertLess(abs(longer[-1]["wallFaceError"]), 1e-9*longer[-1]["total"])
 
+    def test_faster_ways_to_charge_are_compared_with_plain_charging(self):
+        done = self.allrun("-small", "-unchargedTime", "0.01", "-uniformTime", "0", "-a", "1 5", "-leap", "4", "-chargingTime", "0.05")
+        self.assertNotIn("not compared", done.stdout)
+        header, plain, accelerated, projective = done.stdout.splitlines()[-4:]
+        self.assertEqual(header.split(), ["CPU", "[s]", "faster", "mean", "spread/mean", "walls/inside", "at", "walls", "distribution"])
+        self.assertEqual([line[:10].strip() for line in (plain, accelerated, projective)], ["plain", "a = 5", "leap 4"])
+        self.assertIn("its indicator", projective)
+        ends = {run: rows(next((self.path / "runs/small" / run / "postProcessing/particleStatistics").glob("*/bed.dat")))[-1]
+                for run in ("a1-eg4", "a5-eg4", "a1-eg4-leap4")}
+        for end in ends.values():
+            self.assertAlmostEqual(end["Time"], 0.06 if end is ends["a1-eg4"] else 0.02, delta=1.1e-3)      # statistics are taken every 1 ms
+        deviations = [[float(word.rstrip("%")) for word in line[10:].split(" its")[0].split()] for line in (accelerated, projective)]
+        self.assertTrue(all(len(row) == 7 for row in deviations), deviations)
+        # The mean of one is what its charges say.
+        self.assertAlmostEqual(deviations[0][2], 100*(ends["a5-eg4"]["meanCharge"]/ends["a1-eg4"]["meanCharge"] - 1), delta=10)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
