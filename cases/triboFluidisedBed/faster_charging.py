@@ -80,8 +80,8 @@ class Way:
         self.mean = self.charge.mean()
         self.spread = self.charge.std()/self.mean
         self.segregation = run.segregation(charging_time)
-        until = np.abs(run.bed["chargingTime"]/charging_time - 1) < 0.1
-        self.layer = np.mean(run.bed["wallParticles"][until])
+        since = time - 0.2*(time - begin_of(run))
+        self.layer = np.mean(run.bed["wallParticles"][(run.time >= since) & (run.time <= time + 1e-3)])     # samples of 1 ms
 
     def beside(self, plain):
         """Relative deviations from a plain run: mean charge, spread over mean, charge at walls over inside, particles at the walls, and the

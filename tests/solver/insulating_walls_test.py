@@ -132,7 +132,7 @@ class InsulatingWalls(unittest.TestCase):
         found = probe(case, "middle 2e-6;")
         self.assertAlmostEqual(found["middle.potential"] / (2e-6 / (4 * EPSILON0 / 0.04 + EPSILON0 / 0.06)), 1, delta=1e-9)
 
-    def test_flux_through_the_edge_is_the_charge_inside(self):
+    def test_flux_through_any_closed_set_of_patches_and_walls_is_the_charge_inside(self):
         """Gauss' law, with sides at 0 V so that the field is nowhere simple, on one to four ranks."""
         reference = None
         for ranks in (1, 2, 4):
@@ -143,6 +143,9 @@ class InsulatingWalls(unittest.TestCase):
             self.assertAlmostEqual(found["charge"] / charge, 1, delta=1e-12)
             flux = found["bottom.flux"] + found["top.flux"] + found["sides.flux"]
             self.assertAlmostEqual(flux / charge, 1, delta=1e-9)
+            # Around each slab, the charged wall being outside of both: plate, its part of the sides, its side of the wall.
+            self.assertAlmostEqual(found["lower.flux"] / (2e-5 * 0.4 * SIZE**3), 1, delta=1e-8)
+            self.assertAlmostEqual(found["upper.flux"] / (7e-5 * 0.6 * SIZE**3), 1, delta=1e-8)
             reference = reference or found
             for name, value in reference.items():
                 self.assertAlmostEqual(found[name], value, delta=1e-9 * max(abs(value), 1e-9), msg="%s, %d ranks" % (name, ranks))
@@ -189,7 +192,11 @@ class InsulatingWalls(unittest.TestCase):
         for plate in ("bottom", "top"):
             text = text.replace("%s { type fixedValue; value uniform 0; }" % plate, "%s { type zeroGradient; }" % plate)
         (case.path / "0/electricPotential").write_text(text)
-        probe(case, "column %r;" % sigma, "bed %r;" % density)
+        found = probe(case, "column %r;" % sigma, "bed %r;" % density)
+        inside = density * width**2 * 0.004
+        self.assertAlmostEqual(found["bed.flux"] / inside, 1, delta=1e-8)
+        self.assertAlmostEqual(found["outside.flux"] / inside, 0, delta=1e-8)
+        self.assertAlmostEqual(found["sides.flux"] / inside, 0, delta=1e-8)     # the wall has the opposite charge
         case.tool("postProcess", "-func", "writeCellCentres", "-time", "0")
         fields = case.field_values("0/electricField")
         centres = list(zip(case.field_values("0/Cx"), case.field_values("0/Cy"), case.field_values("0/Cz")))

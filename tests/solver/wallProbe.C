@@ -10,6 +10,7 @@ Description
 
         <wall>.potential, <wall>.least, <wall>.most   V_f of the wall [V]
         <patch>.flux    integral of eps E . n over a patch, n out of the mesh [C]
+        <zone>.flux     the same over all faces around a cell zone, n out of it, at walls on the zone's own side [C]
         charge          all there is [C]
 
     Fields and wallSurfaceCharge are written to the start time.
@@ -96,6 +97,60 @@ void sayFluxes(const dielectrics& matter, const Foam::volScalarField& potential,
     }
 }
 
+/// Whether cells lie in a zone, one number each, known across ranks.
+Foam::volScalarField membersOf(const Foam::cellZone& zone, const Foam::fvMesh& mesh)
+{
+    Foam::volScalarField members(Foam::IOobject("members", mesh.time().timeName(), mesh), mesh,
+                                 Foam::dimensionedScalar("members", Foam::dimless, 0), "zeroGradient");
+    for (const Foam::label cell : zone) {
+        members[cell] = 1;
+    }
+    members.correctBoundaryConditions();
+    return members;
+}
+
+double permittivityOf(const Foam::cellZone& zone, const caseSettings& settings)
+{
+    for (const auto& [name, relative] : settings.dielectrics.permittivity) {
+        if (name == zone.name()) {
+            return settings.field.permittivity * relative / settings.dielectrics.gas;
+        }
+    }
+    return settings.field.permittivity;
+}
+
+/// Integral of E . n over the faces around a zone [V m], with the potentials V_f of the faces as the cells of the zone see them.
+double fluxOutOf(const Foam::cellZone& zone, const dielectrics& matter, const Foam::volScalarField& potential)
+{
+    const Foam::fvMesh& mesh = potential.mesh();
+    const Foam::volScalarField members(membersOf(zone, mesh));
+    const Foam::surfaceScalarField values(matter.faceValues(potential));
+    const auto out = [&](Foam::label cell, const Foam::vector& centre, const Foam::vector& area, double value) {
+        const double distance = Foam::mag((centre - mesh.C()[cell]) & area) / Foam::mag(area);
+        return (potential[cell] - value) / distance * Foam::mag(area);
+    };
+    double flux = 0;
+    for (Foam::label face = 0; face < mesh.nInternalFaces(); ++face) {
+        for (const auto& [cell, other] : {std::pair(mesh.owner()[face], mesh.neighbour()[face]),
+                                          std::pair(mesh.neighbour()[face], mesh.owner()[face])}) {
+            if (members[cell] > members[other]) {
+                flux += out(cell, mesh.Cf()[face], mesh.Sf()[face], values[face]);
+            }
+        }
+    }
+    for (const Foam::fvPatch& patch : mesh.boundary()) {
+        const Foam::scalarField across(patch.coupled() ? members.boundaryField()[patch.index()].patchNeighbourField()()
+                                                       : Foam::scalarField(patch.size(), 0));
+        for (Foam::label face = 0; face < patch.size(); ++face) {
+            const Foam::label cell = patch.faceCells()[face];
+            if (members[cell] > across[face]) {
+                flux += out(cell, patch.Cf()[face], patch.Sf()[face], values.boundaryField()[patch.index()][face]);
+            }
+        }
+    }
+    return sum(flux);
+}
+
 }  // namespace
 
 int main(int argc, char* argv[])
@@ -125,6 +180,10 @@ int main(int argc, char* argv[])
     say("charge", all);
     sayWalls(matter, poisson->electricPotential());
     sayFluxes(matter, poisson->electricPotential(), settings.field.permittivity);
+    for (const Foam::cellZone& zone : mesh().cellZones()) {
+        say(zone.name() + ".flux",
+            permittivityOf(zone, settings) * fluxOutOf(zone, matter, poisson->electricPotential()));
+    }
     poisson->electricPotential().write();
     poisson->electricFieldOfCells().write();
     matter.write();
