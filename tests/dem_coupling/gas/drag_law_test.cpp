@@ -215,6 +215,27 @@ TEST(DragLaw, lawsOfPackedBedsAgreeWithinTheirScatter)
     }
 }
 
+TEST(DragLaw, ofFastFlowHasTheValuesOfThePublishedFormulae)
+{
+    // beta/(3 pi mu d) at a Reynolds number of the superficial slip, worked out by hand: Beetstra as alpha F (24 alpha F is OpenFOAM's
+    // C_D Re), Koch and Hill as alpha^2 (F0 + F3 Re/2) (18 mu/d^2 times that is CFDEM's), Di Felice as C_D Re/24 alpha^(1 - chi).
+    struct Value {
+        const char* name;
+        double voidFraction, reynolds, beta;
+    };
+    for (const Value& value : {Value{"Beetstra", 0.45, 5, 12.7536212}, Value{"Beetstra", 0.5, 100, 25.2067139},
+                               Value{"Beetstra", 0.7, 20, 6.83441995}, Value{"Beetstra", 0.9, 60, 5.73345769},
+                               Value{"KochHill", 0.45, 5, 12.9518099}, Value{"KochHill", 0.5, 100, 21.44625},
+                               Value{"KochHill", 0.7, 20, 5.94206221}, Value{"KochHill", 0.9, 60, 5.39209818},
+                               Value{"DiFelice", 0.45, 5, 9.51857226}, Value{"DiFelice", 0.5, 100, 22.4149606},
+                               Value{"DiFelice", 0.7, 20, 5.045799}, Value{"DiFelice", 0.9, 60, 4.8581088}}) {
+        DragPoint at = polyethylene(value.voidFraction, 1);
+        at.slip = value.reynolds / superficialReynolds(at);
+        EXPECT_NEAR(drag(value.name, at) / stokesOf(at) / value.beta, 1, 1e-8)
+            << value.name << ' ' << value.voidFraction << ' ' << value.reynolds;
+    }
+}
+
 TEST(DragLaw, modelBGivesTheSamePressureDropAndForceInSteadyFlow)
 {
     // A: alpha (-p') = n beta w, force beta w + V_p (-p'). B: -p' = n beta_B w, force beta_B w.
