@@ -50,6 +50,11 @@ void CoupledStep::updateField()
     summarise();
     if (!booksOpen_) {
         books_.open(summary_.totalCharge, absoluteCharge_, dem_.movements());
+        if (walls_ && givenToKeepingWalls() != 0 && !walls_->continued()) {
+            throw std::runtime_error(
+                "the DEM checkpoint says that contacts have left charge on insulating walls, but the start time "
+                "has no wallSurfaceCharge: continue from a time that has both");
+        }
         wallFaceOpening_ = walls_ ? wallFaceCharge_ - givenToKeepingWalls() : 0;
         booksOpen_ = true;
     } else {

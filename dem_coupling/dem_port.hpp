@@ -112,6 +112,7 @@ public:
     virtual Box box() const = 0;          ///< whole DEM box [m]
     virtual std::array<bool, 3> periodic() const = 0;
     virtual const std::vector<DemWall>& walls() const = 0;
+    virtual int particleTypes() const = 0;  ///< of particles and walls, from 1 to this
     /// The plane that the script confines particles to, "(nx ny nz) through (x y z) m"; empty where they move freely.
     virtual std::string planeOfMotion() const { return {}; }
     virtual bool charging() const = 0;                    ///< the script asks for contact charging

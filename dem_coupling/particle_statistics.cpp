@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 namespace him {
 
 RegionStatistics::RegionStatistics(StatisticsRegion region, std::size_t wallForces, MPI_Comm communicator)
-    : region_(std::move(region)),
-      wallForces_(wallForces),
-      communicator_(communicator)
+    : region_(std::move(region)), wallForces_(wallForces), communicator_(communicator)
 {
     beginAverages();
 }
@@ -34,6 +33,11 @@ void RegionStatistics::beginAverages()
 RegionSample RegionStatistics::sample(const DemParticles& particles, const Points& field,
                                       const std::vector<Points>& wallForces, const Vector3& gravity) const
 {
+    for (const Points& ofWall : wallForces) {
+        if (ofWall.rows() != particles.size()) {
+            throw std::logic_error("statistics: the wall forces are not those of the particles last read");
+        }
+    }
     RegionSample sample;
     // Without walls every particle is infinitely far from one, so the one layer asked for stays empty.
     const double thickness = region_.layers > 0 ? region_.layerThickness : 1;
@@ -75,7 +79,6 @@ void RegionStatistics::average(const DemParticles& particles, const Points& fiel
     sums.charge += sample.sums.charge;
     sums.wallParticles += sample.sums.wallParticles;
     sums.wallSquaredSpeed += sample.sums.wallSquaredSpeed;
-    sums.wallMass += sample.sums.wallMass;
     sums.forceOnWall += sample.sums.forceOnWall;
     total_.weight += sample.weight;
     for (std::size_t n = 0; n < sums.layers.size(); ++n) {
@@ -91,7 +94,7 @@ RegionSample RegionStatistics::averages() const
     RegionSample mean = total_;
     const double share = samples_ > 0 ? 1 / samples_ : 0;
     RegionSums& sums = mean.sums;
-    for (double* value : {&sums.particles, &sums.mass, &sums.charge, &sums.wallParticles, &sums.wallSquaredSpeed, &sums.wallMass,
+    for (double* value : {&sums.particles, &sums.mass, &sums.charge, &sums.wallParticles, &sums.wallSquaredSpeed,
                           &sums.forceOnWall, &mean.weight}) {
         *value *= share;
     }

@@ -21,8 +21,9 @@ constexpr double memory = 0.8;
 
 }  // namespace
 
-ProjectiveRun::ProjectiveRun(const ProjectiveSettings& settings, DemPort& dem, WallChargePort* faces, MPI_Comm communicator)
-    : settings_(settings), dem_(dem), faces_(faces), communicator_(communicator), equilibria_(dem.equilibria())
+ProjectiveRun::ProjectiveRun(const ProjectiveSettings& settings, DemPort& dem, WallChargePort* faces,
+                             MPI_Comm communicator)
+    : settings_(settings), dem_(dem), faces_(faces), communicator_(communicator)
 {
     dem_.keepNotes(noteColumns);
 }
@@ -35,8 +36,8 @@ void ProjectiveRun::start(double time)
     dem_.notes(notes);
     Scalars rest(particles.size());
     for (Index row = 0; row < rest.size(); ++row) {
-        // Rests are known in a run that continues; NaN stands for none.
-        rest[row] = notes(row, knownColumn) == 2 ? notes(row, restColumn) : std::nan("");
+        // Rests of bursts like these are known in a run that continues; NaN stands for none.
+        rest[row] = sameBursts_ && notes(row, knownColumn) == 2 ? notes(row, restColumn) : std::nan("");
     }
     beginBurst(particles, rest, time);
 }
@@ -72,24 +73,22 @@ bool ProjectiveRun::update(DemParticles& particles, double time)
             rows.push_back(row);
         }
     }
-    Scalars before(static_cast<Index>(rows.size())), after(before.size());
+    const Scalars share = sharesOf(particles);
+    Scalars before(static_cast<Index>(rows.size())), after(before.size()), shareOfRow(before.size());
     std::vector<int> group;
-    int types = 0;
     for (std::size_t n = 0; n < rows.size(); ++n) {
         before[static_cast<Index>(n)] = notes(rows[n], markColumn);
         after[static_cast<Index>(n)] = particles.charge[rows[n]];
+        shareOfRow[static_cast<Index>(n)] = share[rows[n]];
         group.push_back(particles.type[static_cast<std::size_t>(rows[n])] - 1);
-        types = std::max(types, group.back() + 1);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &types, 1, MPI_INT, MPI_MAX, communicator_);
-    std::vector<std::vector<double>> equilibrium(static_cast<std::size_t>(types));
-    for (const WallEquilibrium& one : equilibria_) {
-        if (one.particleType <= types) {
-            equilibrium[static_cast<std::size_t>(one.particleType - 1)].push_back(one.charge);
-        }
+    // Of the particles that are there now: others may have come in since the last burst.
+    std::vector<std::vector<double>> equilibrium(static_cast<std::size_t>(dem_.particleTypes()));
+    for (const WallEquilibrium& one : dem_.equilibria()) {
+        equilibrium[static_cast<std::size_t>(one.particleType - 1)].push_back(one.charge);
     }
 
-    const ChargeProjection projection(before, after, group, equilibrium, communicator_);
+    const ChargeProjection projection(before, after, shareOfRow, group, equilibrium, communicator_);
     burstGains_ = dem_.movements().toWall;
     double activity = faces_ ? faces_->activity() : 0;
     for (std::size_t wall = 0; wall < burstGains_.size(); ++wall) {
@@ -124,6 +123,26 @@ bool ProjectiveRun::update(DemParticles& particles, double time)
     ++leaps_;
     beginBurst(particles, rest, time);
     return true;
+}
+
+/// (d/mean d of the type)^2 of each particle: the equilibrium charges of the DEM are those of the mean diameters.
+Scalars ProjectiveRun::sharesOf(const DemParticles& particles) const
+{
+    std::vector<double> sums(2 * static_cast<std::size_t>(dem_.particleTypes()), 0.0);
+    const auto of = [&](Index row) {
+        return &sums[2 * static_cast<std::size_t>(particles.type[static_cast<std::size_t>(row)] - 1)];
+    };
+    for (Index row = 0; row < particles.size(); ++row) {
+        of(row)[0] += 1;
+        of(row)[1] += particles.radius[row];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+    Scalars share(particles.size());
+    for (Index row = 0; row < share.size(); ++row) {
+        const double mean = of(row)[1] / of(row)[0];
+        share[row] = particles.radius[row] * particles.radius[row] / (mean * mean);
+    }
+    return share;
 }
 
 double ProjectiveRun::correlate(const Notes& notes, const Scalars& rest, const std::vector<Index>& rows)
@@ -186,25 +205,31 @@ std::string ProjectiveRun::state() const
 {
     std::ostringstream text;
     text.precision(17);
-    text << updates_ << ' ' << record_.beyond << ' ' << record_.assumed << ' ' << expects_ << ' ' << together_ << ' ' << squares_ << ' '
-         << leaps_ << ' ' << errors_ << ' ' << sumOfErrors_ << ' ' << largestError_;
+    text << settings_.burst << ' ' << settings_.leap << ' ' << record_.beyond << ' ' << record_.assumed << ' '
+         << expects_ << ' ' << together_ << ' ' << squares_ << ' ' << leaps_ << ' ' << errors_ << ' ' << sumOfErrors_
+         << ' ' << largestError_;
     return text.str();
 }
 
 bool ProjectiveRun::restore(const std::string& state)
 {
     std::istringstream text(state);
-    long updates = 0, leaps = 0, errors = 0;
+    long burst = 0, leap = 0, leaps = 0, errors = 0;
     double beyond = 0, assumed = 0, together = 0, squares = 0, sumOfErrors = 0, largestError = 0;
     bool expects = false;
-    if (!(text >> updates >> beyond >> assumed >> expects >> together >> squares >> leaps >> errors >> sumOfErrors >> largestError)) {
+    if (!(text >> burst >> leap >> beyond >> assumed >> expects >> together >> squares >> leaps >> errors >> sumOfErrors
+          >> largestError)) {
         return false;
     }
     record_.beyond = beyond;
-    record_.assumed = assumed;
-    expects_ = expects;
-    together_ = together;
-    squares_ = squares;
+    // What other bursts gave and expected says nothing of the next one.
+    sameBursts_ = burst == settings_.burst;
+    if (sameBursts_) {
+        record_.assumed = assumed;
+        expects_ = expects;
+        together_ = together;
+        squares_ = squares;
+    }
     leaps_ = leaps;
     errors_ = errors;
     sumOfErrors_ = sumOfErrors;

@@ -19,16 +19,16 @@ struct ProjectiveSettings {
 
 /// What happened at the end of one burst. Equal on all ranks.
 struct ProjectionRecord {
-    double time = 0;          ///< simulated [s]
-    double beyond = 0;        ///< charging time beyond the simulated one, this leap included [s]
-    double gain = 0;          ///< of all particles in the burst [C]
-    double expected = 0;      ///< what the leap before it had expected of the burst [C]
-    double assumed = 0;       ///< what this leap expects of the next one [C]
-    double error = 0;         ///< projectionError() of the two; 0 for the first burst of all
-    double correlation = 0;   ///< of what successive bursts give a particle beyond the fit
-    double leapGain = 0;      ///< of all particles in the leap [C]
-    double givenToWalls = 0;  ///< in the leap [C]
-    std::int64_t stopped = 0; ///< particles that stopped at the limit
+    double time = 0;                          ///< simulated [s]
+    double beyond = 0;                        ///< charging time beyond the simulated one, this leap included [s]
+    double gain = 0;                          ///< of all particles in the burst [C]
+    double expected = 0;                      ///< what the leap before it had expected of the burst [C]
+    double assumed = 0;                       ///< what this leap expects of the next one [C]
+    double error = 0;                         ///< projectionError() of the two; 0 for the first burst of all
+    double correlation = 0;                   ///< of what successive bursts give a particle beyond the fit
+    double leapGain = 0;                      ///< of all particles in the leap [C]
+    double givenToWalls = 0;                  ///< in the leap [C]
+    std::int64_t stopped = 0;                 ///< particles that stopped at the limit
     std::vector<ChargeProjection::Fit> fits;  ///< by particle type, from 1
 };
 
@@ -55,11 +55,13 @@ public:
 
     /// What a run that continues must know beside the checkpoint of the DEM; one line of numbers.
     std::string state() const;
-    /// Takes up such a state before start(). Returns false, and begins anew, when the text is none.
+    /// Takes up such a state before start(); of bursts of another length the charging time and the counts only. Returns false, and
+    /// begins anew, when the text is none.
     bool restore(const std::string& state);
 
 private:
     void beginBurst(const DemParticles& particles, const Scalars& rest, double time);
+    Scalars sharesOf(const DemParticles& particles) const;
     double correlate(const Notes& notes, const Scalars& rest, const std::vector<Index>& rows);
     double settleWalls(double gained, double burstGain);
 
@@ -67,12 +69,12 @@ private:
     DemPort& dem_;
     WallChargePort* faces_;
     MPI_Comm communicator_;
-    std::vector<WallEquilibrium> equilibria_;
-    std::vector<double> wallMarks_;  ///< DemPort::movements().toWall at the start of the burst [C]
-    double burstStart_ = 0;          ///< [s]
-    long updates_ = 0;               ///< of the burst
+    std::vector<double> wallMarks_;      ///< DemPort::movements().toWall at the start of the burst [C]
+    double burstStart_ = 0;              ///< [s]
+    long updates_ = 0;                   ///< of the burst
     double together_ = 0, squares_ = 0;  ///< sums of products of rests, older ones weigh less [C2]
-    bool expects_ = false;           ///< a leap has been made before
+    bool sameBursts_ = true;  ///< what the state of an earlier run says of its last burst holds for this run's
+    bool expects_ = false;    ///< a leap has been made before
     long leaps_ = 0, errors_ = 0;
     double sumOfErrors_ = 0, largestError_ = 0;
     ProjectionRecord record_;

@@ -17,6 +17,8 @@ public:
     virtual void add(const std::vector<WallCharge>& charges) = 0;
     /// Charge on all faces of all ranks [C]. Collective.
     virtual double total() const = 0;
+    /// Whether the faces go on with the charge of an earlier run.
+    virtual bool continued() const { return true; }
     /// Whether a DEM wall, by its row in DemPort::walls(), keeps its charge on faces.
     virtual bool keeps(std::size_t demWall) const = 0;
 

@@ -34,6 +34,11 @@ struct Box {
     {
         return (point.array() >= lower.array()).all() && (point.array() <= upper.array()).all();
     }
+    /// Square of the distance to the nearest point of the box, which must not be empty [m2].
+    double squaredDistance(const Vector3& point) const
+    {
+        return (point - point.cwiseMax(lower).cwiseMin(upper)).squaredNorm();
+    }
     /// This box, larger by a margin [m] on every side.
     Box grownBy(double margin) const
     {

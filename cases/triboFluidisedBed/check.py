@@ -5,65 +5,13 @@ Exit code 1 when the uncharged bed does not carry its weight, a charge book does
 
 import glob
 import os
-import re
 import sys
 
 import numpy as np
 
 import faster_charging
 from findings import findings
-
-
-DIAMETER = 277e-6   # [m]
-
-
-def read(folder, pattern):
-    """The columns of all series of a run, in order of time; where a run was continued, the later one holds."""
-    rows, names = [], []
-    for path in sorted(glob.glob(f"{folder}/postProcessing/{pattern}"), key=lambda p: float(p.split("/")[-2])):
-        with open(path) as file:
-            lines = file.read().splitlines()
-        names = [line for line in lines if line.startswith("# Time")][0][2:].split()
-        new = [[float(word) for word in line.split()] for line in lines if not line.startswith("#")]
-        rows = [row for row in rows if row[0] < float(path.split("/")[-2])] + new
-    table = np.array(rows)
-    return {name: table[:, n] for n, name in enumerate(names)}
-
-
-class Run:
-    def __init__(self, folder):
-        self.folder = folder
-        self.name = os.path.basename(folder)
-        self.bed = read(folder, "particleStatistics/*/bed.dat")
-        self.time = self.bed["Time"]
-        found = re.match(r"a([\d.]+)-eg([\d.]+)(?:-leap(\d+))?(-uniform)?$", self.name)
-        self.acceleration, self.strength = (float(found.group(1)), float(found.group(2))) if found else (0, 0)
-        self.leap = int(found.group(3) or 0) if found else 0
-        self.uniform = bool(found and found.group(4))
-        self.charge = read(folder, "charge/*/charge.dat") if found else None
-
-    def late(self, name, seconds=0.5):
-        return np.mean(self.bed[name][self.time > self.time[-1] - seconds])
-
-    def segregation(self, charging_time=np.inf):
-        """Mean charge of the first layer, centres within a diameter of a wall, over that of the rest, in the last time-averaged profile up to a charging time [s]."""
-        until = np.max(self.time[self.bed["chargingTime"] < charging_time + 0.1]) + 1e-3      # samples of 1 ms
-        profiles = [path for path in glob.glob(f"{self.folder}/postProcessing/particleStatistics/*/bedProfile.dat")
-                    if float(path.split("/")[-2]) <= until]
-        if not profiles:        # of a run that was stopped before its first checkpoint
-            return np.nan
-        last = max(profiles, key=lambda p: float(p.split("/")[-2]))
-        distance, density, charge = np.loadtxt(last, usecols=(0, 1, 2), unpack=True)
-        share = density*(distance[-1] + distance[0] - distance)     # in a square column the shells get smaller inwards
-        layer = distance < DIAMETER
-        mean = [np.sum(share[k]*charge[k])/np.sum(share[k]) for k in (layer, ~layer)]
-        return mean[0]/mean[1] if mean[1] > 0 else np.nan
-
-    def area(self, folder):
-        with open(f"{folder}/system/bedSize") as file:
-            half = float(re.search(r"^high\s+([\d.]+);", file.read(), re.M).group(1))
-        return (2e-3*half)**2
-
+from runs import Run, read
 
 def line(run, weight, uncharged):
     bed = run.bed
@@ -108,7 +56,7 @@ def main():
     runs = [Run(folder) for folder in folders]
     base = [run for run in runs if not run.acceleration][0]
     buoyant = 1 - 1.149/960
-    weight = base.bed["weight"][-1]*buoyant/base.area(f"runs/{size}/{base.name}")
+    weight = base.bed["weight"][-1]*buoyant/(2*base.half_width())**2
     uncharged = base.late("pressureDrop", 0.3)
     off = uncharged/weight - 1
     ok = abs(off) <= 0.03

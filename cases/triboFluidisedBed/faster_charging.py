@@ -14,41 +14,16 @@ from lagrangianCloud import charges  # noqa: E402
 CLOSE = 0.01        # [1] states are compared that lie so near the same charging time
 
 
-def leaps_of(run):
-    """The table of a projective run's leaps by columns; empty for others."""
-    rows, names = [], ["Time", "chargingTime", "error"]
-    for path in sorted(glob.glob(f"{run.folder}/postProcessing/projectiveCharging/*/projectiveCharging.dat")):
-        with open(path) as file:
-            lines = file.read().splitlines()
-        names = [line for line in lines if line.startswith("# Time")][0][2:].split()
-        rows += [[float(word) for word in line.split()[:5]] for line in lines if not line.startswith("#")]
-    table = np.array(sorted(rows)).reshape(-1, 5)
-    return {name: table[:, n] if len(table) else np.empty(0) for n, name in enumerate(names[:5])}
-
-
-def begin_of(run):
-    with open(f"{run.folder}/DEM/begin") as file:
-        return float(file.read())
-
-
-def charging_time_at(run, time):
-    """Charging time [s] that a run stands for at a time [s]: a t, and its leaps."""
-    leaps = leaps_of(run)
-    done = leaps["Time"] < time + 1e-9
-    beyond = (leaps["chargingTime"] - leaps["Time"])[done][-1] if np.any(done) else 0
-    return run.acceleration*(time - begin_of(run)) + beyond
-
-
 def written(run):
     """Times [s] of the written states after the start, in order, with their folders."""
     states = [(float(folder.rsplit("/", 1)[-1]), folder) for folder in glob.glob(f"{run.folder}/[0-9]*")]
-    return sorted(state for state in states if state[0] > begin_of(run))
+    return sorted(state for state in states if state[0] > run.begin())
 
 
 def state_at(run, charging_time):
     """Time [s] and charges [C] of the state written next to a charging time [s]; None where that is not close."""
-    time, folder = min(written(run), key=lambda state: abs(charging_time_at(run, state[0]) - charging_time), default=(0, ""))
-    if not folder or abs(charging_time_at(run, time)/charging_time - 1) > CLOSE:
+    time, folder = min(written(run), key=lambda state: abs(run.charging_time_at(state[0]) - charging_time), default=(0, ""))
+    if not folder or abs(run.charging_time_at(time)/charging_time - 1) > CLOSE:
         return None
     return time, charges(folder)
 
@@ -64,8 +39,8 @@ def processor_time(run, time):
         elif np.isfinite(now):
             times.append(now)
             costs.append(float(cost))
-    interval = times[0] - begin_of(run) if times else np.inf        # of the log
-    first = times and interval < 0.25*(time - begin_of(run))
+    interval = times[0] - run.begin() if times else np.inf        # of the log
+    first = times and interval < 0.25*(time - run.begin())
     return float(np.interp(time, times, costs)) if first and times[-1] > time - interval else np.nan
 
 
@@ -80,7 +55,7 @@ class Way:
         self.mean = self.charge.mean()
         self.spread = self.charge.std()/self.mean
         self.segregation = run.segregation(charging_time)
-        since = time - 0.2*(time - begin_of(run))
+        since = time - 0.2*(time - run.begin())
         self.layer = np.mean(run.bed["wallParticles"][(run.time >= since) & (run.time <= time + 1e-3)])     # samples of 1 ms
 
     def beside(self, plain):
@@ -92,50 +67,52 @@ class Way:
 
 def indicator(run):
     """Mean and largest error that a projective run has seen itself. Before the first leap nothing was assumed."""
-    errors = leaps_of(run)["error"][1:]
+    errors = run.leaps["error"][1:]
     return (np.mean(errors), np.max(errors)) if len(errors) else (np.nan, np.nan)
 
 
 def ways(runs):
-    """Every e/g with a plain run: its charging time and its ways, the plain one first."""
+    """Every e/g with a plain run that has written a state: its charging time, the plain way, the others."""
     for plain in (run for run in runs if run.acceleration == 1 and not run.leap and not run.uniform):
-        group = sorted((run for run in runs if run.strength == plain.strength and not run.uniform), key=lambda run: (run.leap, run.acceleration))
-        charging_time = charging_time_at(plain, written(plain)[-1][0])
-        found = []
-        for run in group:
+        if not written(plain):
+            print(f"{plain.name}: no state was written, nothing is compared with it")
+            continue
+        charging_time = plain.charging_time_at(written(plain)[-1][0])
+        others = []
+        for run in sorted((run for run in runs if run.strength == plain.strength and run is not plain and not run.uniform),
+                          key=lambda run: (run.leap, run.acceleration)):
             state = state_at(run, charging_time)
             if state is None:
                 print(f"{run.name}: no state was written within {100*CLOSE:g} % of a t = {charging_time:.2f} s, not compared")
             else:
-                found.append(Way(run, charging_time, *state))
-        yield plain.strength, charging_time, found
+                others.append(Way(run, charging_time, *state))
+        yield plain.strength, charging_time, Way(plain, charging_time, *state_at(plain, charging_time)), others
 
 
 def report(runs, size):
     """Prints time against error of every way, and draws it."""
-    for strength, charging_time, found in ways(runs):
-        plain = found[0]
+    for strength, charging_time, plain, others in ways(runs):
         print(f"\nFaster charging, e/g = {strength:g}, a t = {charging_time:.1f} s: deviations from plain a = 1")
         print(f"{'':10}{'CPU [s]':>9}{'faster':>8}{'mean':>9}{'spread/mean':>13}{'walls/inside':>14}{'at walls':>10}{'distribution':>14}")
-        print(f"{plain.name:10}{plain.cost:9.0f}{1:8.1f}{1e6*plain.run.bed['chargePerMass'][-1]:7.1f} uC/kg{plain.spread:7.2f}{plain.segregation:14.2f}{plain.layer:10.0f}")
-        for way in found[1:]:
+        print(f"{plain.name:10}{plain.cost:9.0f}{1:8.1f}{1e15*plain.mean:6.1f} fC{plain.spread:13.2f}{plain.segregation:14.2f}{plain.layer:10.0f}")
+        for way in others:
             off = way.beside(plain)
             print(f"{way.name:10}{way.cost:9.0f}{plain.cost/way.cost:8.1f}{100*off['mean']:+8.1f}%{100*off['spread']:+12.1f}%{100*off['segregation']:+13.1f}%"
                   f"{100*off['layer']:+9.1f}%{100*off['distribution']:13.1f}%" + ("   its indicator: mean %.2f, largest %.2f" % indicator(way.run) if way.run.leap else ""))
-        draw(found, f"doc/{size}-faster-eg{strength:g}.png")
+        if others:
+            draw(plain, others, f"doc/{size}-faster-eg{strength:g}.png")
 
 
-def draw(found, path):
+def draw(plain, others, path):
     import matplotlib.pyplot as plt
-    plain = found[0]
     figure, axes = plt.subplots(1, 3, figsize=(13, 3.8), constrained_layout=True)
     for axis, key, label in ((axes[0], "spread", "spread over mean"), (axes[1], "distribution", "distribution")):
         for kind, mark in (("accelerated", "o-"), ("projective", "s-")):
-            those = [way for way in found[1:] if bool(way.run.leap) == (kind == "projective")]
+            those = [way for way in others if bool(way.run.leap) == (kind == "projective")]
             axis.plot([plain.cost/way.cost for way in those], [100*abs(way.beside(plain)[key]) for way in those], mark, label=kind)
         axis.set(xlabel="times as fast as plain", ylabel=f"deviation of the {label} [%]", xscale="log", ylim=(0, None))
         axis.legend(fontsize=7)
-    for way in found:
+    for way in [plain, *others]:
         axes[2].plot(1e15*way.charge, np.linspace(0, 1, len(way.charge)), lw=2 if way is plain else 1, ls="--" if way.run.leap else "-",
                      color="k" if way is plain else None, label=way.name)
     axes[2].set(xlabel="charge [fC]", ylabel="share of particles below", xlim=(0, 1e15*np.quantile(plain.charge, 0.99)))

@@ -47,7 +47,11 @@ def drop_at(run, time):
     """Pressure drop [Pa] of a dynamic run at a time, and its standard error: by a straight line through the 0.5 s before, in which the charge rises."""
     window = (run.time > time - 0.5) & (run.time <= time)
     drop, ago = run.bed["pressureDrop"][window], run.time[window] - time
+    if len(drop) < 10:      # a short trial
+        return np.nan, np.nan
     line = np.polyfit(ago, drop, 1)
+    if len(drop) < 100:
+        return line[1], np.nan
     # Bubbles pass for some hundredths of a second: means of 0.05 s know nothing of one another. At its end a line errs twice as much as a mean.
     blocks = np.array_split(drop - np.polyval(line, ago), 10)
     error = 2*np.std([np.mean(block) for block in blocks], ddof=2)/np.sqrt(len(blocks))

@@ -13,18 +13,30 @@ namespace {
 /// Sums of one group: number, q, gain; then about the means q q, q gain, gain gain.
 constexpr std::size_t sumsPerGroup = 6;
 
+/// What is left after one more burst of a way to q*, by the slope of the fit; nothing where the burst itself went all of it or more.
+double leftByBurst(double slope)
+{
+    return std::max(0.0, 1 + slope);
+}
+
 /// A slope counts when it is this many standard errors below zero.
 constexpr double significance = 2;
 
 }  // namespace
 
-ChargeProjection::ChargeProjection(const Scalars& before, const Scalars& after, const std::vector<int>& group,
-                                   const std::vector<std::vector<double>>& equilibrium, MPI_Comm communicator)
-    : after_(after), group_(group), groups_(equilibrium.size()), communicator_(communicator)
+ChargeProjection::ChargeProjection(const Scalars& chargeBefore, const Scalars& chargeAfter, const Scalars& share,
+                                   const std::vector<int>& group, const std::vector<std::vector<double>>& equilibrium,
+                                   MPI_Comm communicator)
+    : share_(share), group_(group), groups_(equilibrium.size()), communicator_(communicator)
 {
-    if (before.size() != after.size() || static_cast<std::size_t>(before.size()) != group.size()) {
+    if (chargeBefore.size() != chargeAfter.size() || chargeBefore.size() != share.size()
+        || static_cast<std::size_t>(chargeBefore.size()) != group.size()) {
         throw std::invalid_argument("a burst needs the charges of the same particles before and after it");
     }
+    const Scalars before = chargeBefore / share, after = chargeAfter / share;
+    after_ = after;
+    total_ = (chargeAfter - chargeBefore).sum();
+    MPI_Allreduce(MPI_IN_PLACE, &total_, 1, MPI_DOUBLE, MPI_SUM, communicator_);
     std::vector<double> sums(sumsPerGroup * groups_.size(), 0.0);
     const auto add = [&](auto&& entry) {
         for (Index row = 0; row < before.size(); ++row) {
@@ -56,7 +68,6 @@ ChargeProjection::ChargeProjection(const Scalars& before, const Scalars& after, 
         for (std::size_t k = 0; k < sumsPerGroup; ++k) {
             of[k] = k < 3 ? first[sumsPerGroup * n + k] : sums[sumsPerGroup * n + k];
         }
-        total_ += of[2];
         fitGroup(groups_[n], of.data(), equilibrium[n]);
     }
     rest_.resize(before.size());
@@ -68,7 +79,6 @@ ChargeProjection::ChargeProjection(const Scalars& before, const Scalars& after, 
 
 void ChargeProjection::fitGroup(Fit& fit, const double* sums, const std::vector<double>& equilibrium) const
 {
-    fit.particles = sums[0];
     if (sums[0] == 0) {
         fit.held = true;
         return;
@@ -111,7 +121,12 @@ ChargeProjection::Leap ChargeProjection::leap(long bursts, double correlation, b
     }
     std::vector<double> growth(groups_.size()), factor(groups_.size());
     for (std::size_t n = 0; n < groups_.size(); ++n) {
-        growth[n] = std::expm1(groups_[n].slope * static_cast<double>(bursts));
+        // (1 + c1)^n - 1, of a slope near zero to the last digit
+        if (bursts > 0) {
+            growth[n] = leftByBurst(groups_[n].slope) > 0
+                            ? std::expm1(static_cast<double>(bursts) * std::log1p(groups_[n].slope))
+                            : -1;
+        }
         factor[n] = restFactor(bursts, correlation, groups_[n].slope);
     }
     Leap result;
@@ -137,7 +152,7 @@ ChargeProjection::Leap ChargeProjection::leap(long bursts, double correlation, b
             sums[2] += 1;
         }
         result.charge[row] += change;
-        sums[change > 0 ? 0 : 1] += change;
+        sums[change > 0 ? 0 : 1] += share_[row] * change;
     }
     MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
     result.stopped = static_cast<std::int64_t>(sums[2]);
@@ -145,19 +160,20 @@ ChargeProjection::Leap ChargeProjection::leap(long bursts, double correlation, b
     if (!walls && result.gained != 0) {
         // A smaller change never passes anything that the whole one does not pass.
         const bool up = result.gained > 0;
-        const double share = up ? -sums[1] / sums[0] : -sums[0] / sums[1];
+        const double part = up ? -sums[1] / sums[0] : -sums[0] / sums[1];
         for (Index row = 0; row < after_.size(); ++row) {
             const double change = result.charge[row] - after_[row];
             if ((change > 0) == up) {
-                result.charge[row] = after_[row] + share * change;
+                result.charge[row] = after_[row] + part * change;
             }
         }
         result.gained = 0;
     }
     for (Index row = 0; row < after_.size(); ++row) {
         const Fit& fit = groups_[static_cast<std::size_t>(group_[static_cast<std::size_t>(row)])];
-        sums[3] += fit.held ? fit.meanGain : fit.gainAtZero + fit.slope * result.charge[row];
+        sums[3] += share_[row] * (fit.held ? fit.meanGain : fit.gainAtZero + fit.slope * result.charge[row]);
     }
+    result.charge *= share_;
     MPI_Allreduce(&sums[3], &result.assumedGain, 1, MPI_DOUBLE, MPI_SUM, communicator_);
     return result;
 }
@@ -165,9 +181,9 @@ ChargeProjection::Leap ChargeProjection::leap(long bursts, double correlation, b
 double restFactor(long bursts, double correlation, double slope)
 {
     const double rho = std::clamp(correlation, 0.0, 1.0);
-    const double g = std::exp(slope);
-    double sum = 1;     // S of k bursts beyond the first
-    double cross = rho; // sum over i = 0..k of g^(k-i) rho^(k+1-i)
+    const double g = leftByBurst(slope);
+    double sum = 1;      // S of k bursts beyond the first
+    double cross = rho;  // sum over i = 0..k of g^(k-i) rho^(k+1-i)
     for (long k = 0; k < bursts; ++k) {
         sum = g * g * sum + 2 * g * cross + 1;
         cross = rho * (g * cross + 1);

@@ -23,11 +23,6 @@ Box boundsOf(const Points& points)
     return box;
 }
 
-double distanceTo(const Box& box, const Vector3& point)
-{
-    return (point - point.cwiseMax(box.lower).cwiseMin(box.upper)).norm();
-}
-
 /// Everything that another rank must know of one of this rank's cells to go on walking from it, as doubles.
 struct CellRecords {
     IndexLists neighbours;  ///< over internal faces
@@ -50,7 +45,8 @@ IndexLists sortedByCell(Index cells, const std::vector<std::int32_t>& cellOf)
     lists.entries.resize(cellOf.size());
     std::vector<std::int32_t> next(lists.first.begin(), lists.first.end() - 1);
     for (std::size_t n = 0; n < cellOf.size(); ++n) {
-        lists.entries[static_cast<std::size_t>(next[static_cast<std::size_t>(cellOf[n])]++)] = static_cast<std::int32_t>(n);
+        lists.entries[static_cast<std::size_t>(next[static_cast<std::size_t>(cellOf[n])]++)] =
+            static_cast<std::int32_t>(n);
     }
     return lists;
 }
@@ -94,22 +90,25 @@ void pack(const MeshArrays& mesh, const CellRecords& records, int rank, Index ce
     const auto neighbours = records.neighbours[cell];
     const auto coupled = records.coupled[cell];
     const auto faces = records.boundary[cell];
-    out.insert(out.end(), {centre[0], centre[1], centre[2], mesh.volume[cell], mesh.radius[cell],
-                           static_cast<double>((neighbours.end() - neighbours.begin()) + (coupled.end() - coupled.begin())),
-                           static_cast<double>(faces.end() - faces.begin())});
+    out.insert(out.end(),
+               {centre[0], centre[1], centre[2], mesh.volume[cell], mesh.radius[cell],
+                static_cast<double>((neighbours.end() - neighbours.begin()) + (coupled.end() - coupled.begin())),
+                static_cast<double>(faces.end() - faces.begin())});
     for (const std::int32_t neighbour : neighbours) {
         out.insert(out.end(), {static_cast<double>(rank), static_cast<double>(neighbour), 0, 0, 0});
     }
     for (const std::int32_t face : coupled) {
         const auto f = static_cast<std::size_t>(face);
-        out.insert(out.end(), {static_cast<double>(mesh.coupled.otherRank[f]), static_cast<double>(mesh.coupled.otherCell[f]),
-                               mesh.coupled.shift(face, 0), mesh.coupled.shift(face, 1), mesh.coupled.shift(face, 2)});
+        out.insert(out.end(),
+                   {static_cast<double>(mesh.coupled.otherRank[f]), static_cast<double>(mesh.coupled.otherCell[f]),
+                    mesh.coupled.shift(face, 0), mesh.coupled.shift(face, 1), mesh.coupled.shift(face, 2)});
     }
     const BoundaryFaces& b = mesh.boundary;
     for (const std::int32_t face : faces) {
-        out.insert(out.end(), {b.centre(face, 0), b.centre(face, 1), b.centre(face, 2), b.normal(face, 0), b.normal(face, 1),
-                               b.normal(face, 2), b.area[face], b.radius[face], b.value[face],
-                               static_cast<double>(b.condition[static_cast<std::size_t>(face)]), static_cast<double>(face)});
+        out.insert(out.end(),
+                   {b.centre(face, 0), b.centre(face, 1), b.centre(face, 2), b.normal(face, 0), b.normal(face, 1),
+                    b.normal(face, 2), b.area[face], b.radius[face], b.value[face],
+                    static_cast<double>(b.condition[static_cast<std::size_t>(face)]), static_cast<double>(face)});
     }
 }
 
@@ -123,7 +122,8 @@ Learnt unpack(const double*& in)
     cell.faces = static_cast<Index>(in[6]);
     in += 7;
     for (std::size_t n = 0; n < steps; ++n, in += 5) {
-        cell.steps.push_back({static_cast<std::int32_t>(in[0]), static_cast<std::int32_t>(in[1]), {in[2], in[3], in[4]}});
+        cell.steps.push_back(
+            {static_cast<std::int32_t>(in[0]), static_cast<std::int32_t>(in[1]), {in[2], in[3], in[4]}});
     }
     cell.faceData.assign(in, in + facePayload * static_cast<std::size_t>(cell.faces));
     in += facePayload * static_cast<std::size_t>(cell.faces);
@@ -144,7 +144,8 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
     double quantum = mesh.cells() > 0 ? 1e-4 * std::cbrt(mesh.volume.minCoeff()) : 1.0;
     MPI_Allreduce(MPI_IN_PLACE, &quantum, 1, MPI_DOUBLE, MPI_MIN, communicator);
     const auto keyOf = [quantum](std::int32_t rank, std::int32_t cell, const Vector3& shift) {
-        return Key{rank, cell, std::llround(shift[0] / quantum), std::llround(shift[1] / quantum), std::llround(shift[2] / quantum)};
+        return Key{rank, cell, std::llround(shift[0] / quantum), std::llround(shift[1] / quantum),
+                   std::llround(shift[2] / quantum)};
     };
 
     // Walk outwards, one layer of cells at a time. Every rank takes part in every round until nobody has a cell to ask for.
@@ -154,7 +155,8 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
     std::vector<Step> front;
     for (Index face = 0; face < mesh.coupled.size(); ++face) {
         const auto f = static_cast<std::size_t>(face);
-        front.push_back({mesh.coupled.otherRank[f], mesh.coupled.otherCell[f], mesh.coupled.shift.row(face).matrix().transpose()});
+        front.push_back(
+            {mesh.coupled.otherRank[f], mesh.coupled.otherCell[f], mesh.coupled.shift.row(face).matrix().transpose()});
     }
     const auto isOwn = [self](const Key& key) { return key[0] == self && key[2] == 0 && key[3] == 0 && key[4] == 0; };
     SparseExchange::Buffers asked, answers;
@@ -190,7 +192,7 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
             const double* in = answers[rank].data();
             for (const Step& step : order[rank]) {
                 Learnt cell = unpack(in);
-                const bool near = distanceTo(own, cell.centre + step.shift) <= reach;
+                const bool near = own.squaredDistance(cell.centre + step.shift) <= reach * reach;
                 if (!near && layer > layers) {
                     continue;
                 }
@@ -241,8 +243,8 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
         }
         for (const std::int32_t face : records.coupled[cell]) {
             const auto f = static_cast<std::size_t>(face);
-            local_.neighbours.entries.push_back(numberAt(
-                keyOf(mesh.coupled.otherRank[f], mesh.coupled.otherCell[f], mesh.coupled.shift.row(face).matrix().transpose())));
+            local_.neighbours.entries.push_back(numberAt(keyOf(mesh.coupled.otherRank[f], mesh.coupled.otherCell[f],
+                                                               mesh.coupled.shift.row(face).matrix().transpose())));
         }
         local_.neighbours.closeRow();
     }
@@ -267,8 +269,8 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
         local_.neighbours.closeRow();
         const auto r = static_cast<std::size_t>(copy.rank);
         receivedCells_[r].push_back(static_cast<std::int32_t>(number));
-        outgoing_[r].insert(outgoing_[r].end(), {static_cast<double>(copy.cell), static_cast<double>(number), copy.shift[0],
-                                                 copy.shift[1], copy.shift[2]});
+        outgoing_[r].insert(outgoing_[r].end(), {static_cast<double>(copy.cell), static_cast<double>(number),
+                                                 copy.shift[0], copy.shift[1], copy.shift[2]});
         for (std::size_t k = 0; k < cell.faceData.size(); k += facePayload, ++face) {
             const double* d = cell.faceData.data() + k;
             b.centre.row(face) << d[0] + copy.shift[0], d[1] + copy.shift[1], d[2] + copy.shift[2];
@@ -295,7 +297,8 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
             const double* in = incoming_[rank].data() + at;
             const auto cell = static_cast<std::int32_t>(in[0]);
             sentCells_[rank].push_back(cell);
-            unsorted.push_back({static_cast<std::int32_t>(rank), static_cast<std::int32_t>(in[1]), {in[2], in[3], in[4]}});
+            unsorted.push_back(
+                {static_cast<std::int32_t>(rank), static_cast<std::int32_t>(in[1]), {in[2], in[3], in[4]}});
             cellOfHolder.push_back(cell);
         }
     }
@@ -316,8 +319,8 @@ MeshHalo::MeshHalo(const MeshArrays& mesh, double reach, int layers, MPI_Comm co
     }
 }
 
-void MeshHalo::forward(const std::vector<std::vector<std::int32_t>>& sent, const std::vector<std::vector<std::int32_t>>& received,
-                       Index own, Index all, Scalars& values)
+void MeshHalo::forward(const std::vector<std::vector<std::int32_t>>& sent,
+                       const std::vector<std::vector<std::int32_t>>& received, Index own, Index all, Scalars& values)
 {
     exchange_.clear(outgoing_);
     exchange_.clear(incoming_);

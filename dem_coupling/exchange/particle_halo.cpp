@@ -9,11 +9,6 @@ namespace {
 
 constexpr Index payload = 7;  // position, charge, cell centre
 
-double squaredDistance(const Box& box, const Vector3& point)
-{
-    return (point - point.cwiseMax(box.lower).cwiseMin(box.upper)).squaredNorm();
-}
-
 }  // namespace
 
 ParticleHalo::ParticleHalo(double cutoff, const Box& demBox, const std::array<bool, 3>& periodic, MPI_Comm communicator)
@@ -65,7 +60,7 @@ void ParticleHalo::chooseCopies(const Points& positions)
                     }
                     for (Index row = 0; row < positions.rows(); ++row) {
                         const Vector3 copy = positions.row(row).matrix().transpose() + shift;
-                        if (squaredDistance(bounds_[static_cast<std::size_t>(rank)], copy) <= cutoff_ * cutoff_) {
+                        if (bounds_[static_cast<std::size_t>(rank)].squaredDistance(copy) <= cutoff_ * cutoff_) {
                             copies.push_back({row, shift});
                         }
                     }
@@ -86,8 +81,8 @@ void ParticleHalo::extend(ChargedPoints& points)
         for (const Copy& copy : copies_[rank]) {
             const Vector3 position = points.position.row(copy.row).matrix().transpose() + copy.shift;
             const Vector3 centre = points.cellCentre.row(copy.row).matrix().transpose() + copy.shift;
-            outgoing_[rank].insert(outgoing_[rank].end(), {position[0], position[1], position[2], points.charge[copy.row],
-                                                           centre[0], centre[1], centre[2]});
+            outgoing_[rank].insert(outgoing_[rank].end(), {position[0], position[1], position[2],
+                                                           points.charge[copy.row], centre[0], centre[1], centre[2]});
         }
     }
     exchange_.exchange(outgoing_, incoming_);

@@ -100,8 +100,7 @@ void ParticlesOnMesh::addCopies(MeshHalo& halo, double reach, CloudSources& sour
             const MeshHalo::Holder& holder = halo.holders()[static_cast<std::size_t>(n)];
             const auto rank = static_cast<std::size_t>(holder.rank);
             const Vector3 place = sources.position.row(row).matrix().transpose() + holder.shift;
-            const Box& bounds = halo.bounds()[rank];
-            if ((place - place.cwiseMax(bounds.lower).cwiseMin(bounds.upper)).squaredNorm() <= reach * reach) {
+            if (halo.bounds()[rank].squaredDistance(place) <= reach * reach) {
                 outgoing_[rank].insert(outgoing_[rank].end(), {place[0], place[1], place[2], sources.charge[row],
                                                                static_cast<double>(holder.copy)});
             }

@@ -61,12 +61,6 @@ std::vector<double> packed(const std::vector<WallFacePolygon>& faces)
     return data;
 }
 
-/// Square of the distance of a point to a box [m2].
-double squaredDistance(const Vector3& point, const Box& box)
-{
-    return (box.lower - point).cwiseMax(point - box.upper).cwiseMax(0.0).squaredNorm();
-}
-
 /// Whether a face is the whole of its box, a rectangle along the axes, to round-off.
 /// @param area  of the face [m2]
 bool fillsBox(const std::vector<Vector3>& corners, double area, const Box& box)
@@ -194,7 +188,7 @@ WallFaces::Place WallFaces::find(const Vector3& point, int wall) const
     constexpr double never = std::numeric_limits<double>::infinity();
     const auto boxDistance = [&](Index face) {
         const Candidate& candidate = candidates_[static_cast<std::size_t>(face)];
-        return serves(candidate.wall, wall) ? squaredDistance(point, candidate.box) : never;
+        return serves(candidate.wall, wall) ? candidate.box.squaredDistance(point) : never;
     };
     // Whether a face whose box is so far away can still be the one.
     const auto isUseful = [&](double squared) {

@@ -219,8 +219,7 @@ void ChargedWalls::findNearRuns(const CloudSources& sources)
             const RowRange& panels = ranges.range[static_cast<std::size_t>(n)];
             for (auto panel = panels.begin; panel < panels.end; ++panel) {
                 const Vector3 centre = panelCentre_.row(panel).matrix().transpose();
-                const double square = (centre - centre.cwiseMax(box.lower).cwiseMin(box.upper)).squaredNorm();
-                if (panelCharge_[panel] != 0 && square < panelNearSquared_[panel]) {
+                if (panelCharge_[panel] != 0 && box.squaredDistance(centre) < panelNearSquared_[panel]) {
                     found_.push_back({static_cast<std::int32_t>(panel), static_cast<std::int32_t>(runs_.size())});
                     ++firstNearRun_[static_cast<std::size_t>(panel)];
                 }

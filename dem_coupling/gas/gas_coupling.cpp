@@ -50,12 +50,12 @@ GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& s
     sources_.owed.setZero(mesh_.cellCount(), 3);
 }
 
-void GasCoupling::smoothColumns(Eigen::ArrayXXd& ofCell)
+void GasCoupling::smoothColumns(Eigen::ArrayXXd& ofCell, Index columns)
 {
     if (settings_.voidFraction != VoidFractionModel::smoothed) {
         return;
     }
-    for (Index k = 0; k < ofCell.cols(); ++k) {
+    for (Index k = 0; k < columns; ++k) {
         smoothed_ = ofCell.col(k);
         mesh_.smooth(smoothed_, settings_.smoothingLength);
         ofCell.col(k) = smoothed_;
@@ -66,13 +66,13 @@ void GasCoupling::toCells(Columns& columns)
 {
     shares_.deposit(columns.ofRows, columns.ofCells);
     columns.ofCells.colwise() /= volume_;
-    smoothColumns(columns.ofCells);
+    smoothColumns(columns.ofCells, columns.ofCells.cols());
 }
 
-void GasCoupling::toRows(Columns& columns)
+void GasCoupling::toRows(Columns& columns, Index smoothed)
 {
     // The adjoint of the deposit, so that a particle gets what the gas gives for it.
-    smoothColumns(columns.ofCells);
+    smoothColumns(columns.ofCells, smoothed);
     shares_.gather(columns.ofCells, columns.ofRows);
 }
 
@@ -143,11 +143,12 @@ void GasCoupling::layVolumes(const DemParticles& particles)
         summary_.massCentre = Vector3(sums[5], sums[6], sums[7]) / sums[4];
     }
     if (smallest < 0) {
-        throw std::runtime_error(
-            "a cell of the gas holds " + std::to_string(1 - smallest)
-            + " of its volume of particles. Nothing the gas does there would be right: write "
-              "voidFraction divided; or smoothed; in constant/gasProperties, use larger cells, or look for "
-              "overlapping particles");
+        throw std::runtime_error("a cell of the gas holds " + std::to_string(1 - smallest)
+                                 + " of its volume of particles. Nothing the gas does there would be right: write "
+                                 + (settings_.voidFraction == VoidFractionModel::smoothed
+                                        ? "a longer smoothingLength"
+                                        : "voidFraction divided; or smoothed;")
+                                 + " in constant/gasProperties, use larger cells, or look for overlapping particles");
     }
     if (summary_.particlesOutside > 0 && !settings_.particlesOutsideAllowed) {
         refuseOutside(particles);
@@ -184,7 +185,7 @@ void GasCoupling::findDrag(const DemParticles& particles, const Points& velocity
     seen_.ofCells.resize(volume_.size(), 4);
     seen_.ofCells.leftCols(3) = velocity;
     seen_.ofCells.col(3) = sources_.voidFraction;
-    toRows(seen_);
+    toRows(seen_, 3);  // the void fraction is smooth already
     if (profile_) {
         findDeviations(particles);
         seen_.ofRows.leftCols(3) += deviation_;
@@ -309,7 +310,7 @@ void GasCoupling::handBack(const DemParticles& particles, const GasResult& resul
         back_.ofCells.rightCols(6).leftCols(3) = result.acceleration;
         back_.ofCells.rightCols(3) = result.vorticity;
     }
-    toRows(back_);
+    toRows(back_, back_.ofCells.cols());
     forces_.velocity = back_.ofRows.leftCols(3);
     if (profile_) {
         forces_.velocity += deviation_;

@@ -112,7 +112,7 @@ private:
     /// Lift and what the acceleration of the gas does to a particle; back_ ends with acceleration and vorticity.
     void addUnpaidForces(const DemParticles& particles);
     /// The void-fraction model's spreading of every column, per volume or value of the cells.
-    void smoothColumns(Eigen::ArrayXXd& ofCell);
+    void smoothColumns(Eigen::ArrayXXd& ofCell, Index columns);
     /// Values on their way, one column each. One for every way, so that none changes its size in a steady run.
     struct Columns {
         Eigen::ArrayXXd ofCells, ofRows;
@@ -120,7 +120,8 @@ private:
     /// Sums over particles per volume of cells, and the means of cells at particles, by the void-fraction model. Collective.
     void toCells(Columns& columns);
     /// Leaves ofCells smoothed.
-    void toRows(Columns& columns);
+    /// @param smoothed  how many columns go through the adjoint of the smoothing, the first ones
+    void toRows(Columns& columns, Index smoothed);
 
     DemPort& dem_;
     const GasMesh& mesh_;

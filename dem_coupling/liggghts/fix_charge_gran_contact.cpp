@@ -146,6 +146,7 @@ void FixChargeGranContact::init()
     field_ = FixCoupleCfdEfield::find(lmp);
     recorder_.pairs.keep(field_, recorder_.pairs.keepsWithin());
     refreshWalls();
+    tellOfLostWalls();
     for (const WallRole& role : roles_) {
         if (std::none_of(walls_.begin(), walls_.end(), [&](const ListedWall& w) { return w.wall.name == role.name; })) {
             error->fix_error(FLERR, this, ("wall " + role.name + ": the script has no such wall").c_str());

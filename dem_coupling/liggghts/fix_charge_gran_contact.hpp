@@ -110,6 +110,10 @@ private:
     void tell(const std::string& text) const;
     /// Refuses pairs without Gamma, and warns of those of types that are not there yet.
     void checkPairs();
+    /// A number for a wall's name in restart files.
+    static double markOf(const std::string& wall);
+    /// Says what a restart file knows of walls that are not there any more.
+    void tellOfLostWalls();
     std::size_t packRow(int row, double* buffer) const;
     void bookArrivals();
     void keepWallCharges();
@@ -123,15 +127,16 @@ private:
     std::vector<ListedWall> walls_;
     std::vector<WallRole> roles_;
     std::vector<WallCharge> wallCharges_;  ///< not taken yet
-    std::vector<char> booked_;   ///< per row: the particle's charge stands in the books
-    std::vector<char> charged_;  ///< per row: the particle got its initial charge, or brought one
-    bool arrivals_ = false;     ///< some row is not booked yet
+    std::vector<char> booked_;             ///< per row: the particle's charge stands in the books
+    std::vector<char> charged_;            ///< per row: the particle got its initial charge, or brought one
+    bool arrivals_ = false;                ///< some row is not booked yet
     bool enabled_;
-    bool stopped_ = false;      ///< the host holds the charges
+    bool stopped_ = false;        ///< the host holds the charges
     bool roomInHistory_ = false;  ///< contacts have room for a value of ours from before this fix
     FixCoupleCfdEfield* field_ = nullptr;
     CompensatedSum inserted_;
-    std::vector<double> restartedToWall_;  ///< from a restart file, until all of its walls are defined
+    std::map<double, double>
+        restartedToWall_;  ///< charge [C] by markOf() a wall, from a restart file, until the wall is defined
     double pairsBegun_ = 0;
     double wallContactsBegun_ = 0;
     double curvature_ = 0;

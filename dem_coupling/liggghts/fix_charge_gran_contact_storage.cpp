@@ -97,7 +97,10 @@ void FixChargeGranContact::write_restart(FILE* file)
     }
     std::vector<double> state{total.inserted,    total.leaked,        total.breakdown,
                               counts.breakdowns, counts.strongFrozen, static_cast<double>(total.toWall.size())};
-    state.insert(state.end(), total.toWall.begin(), total.toWall.end());
+    for (std::size_t row = 0; row < total.toWall.size(); ++row) {
+        state.push_back(markOf(walls_[row].wall.name));
+        state.push_back(total.toWall[row]);
+    }
     const int bytes = static_cast<int>(state.size() * sizeof(double));
     fwrite(&bytes, sizeof(int), 1, file);
     fwrite(state.data(), sizeof(double), state.size(), file);
@@ -115,7 +118,10 @@ void FixChargeGranContact::restart(char* buffer)
     losses_.brokenDown() = CompensatedSum(state[2]);
     losses_.breakdowns() = state[3];
     transfer_.strongFrozenContacts() = state[4];
-    restartedToWall_.assign(state + 6, state + 6 + static_cast<std::size_t>(state[5]));
+    restartedToWall_.clear();
+    for (std::size_t row = 0; row < static_cast<std::size_t>(state[5]); ++row) {
+        restartedToWall_[state[6 + 2 * row]] = state[7 + 2 * row];
+    }
     refreshWalls();
 }
 

@@ -8,7 +8,9 @@
 #include "error.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
+#include <sstream>
 
 namespace him {
 
@@ -21,6 +23,31 @@ int FixChargeGranContact::wallRow(const LAMMPS_NS::Fix* wall) const
     }
     error->one(FLERR, "a wall touches particles that fix charge/gran/contact does not know");
     return -1;
+}
+
+double FixChargeGranContact::markOf(const std::string& wall)
+{
+    // FNV-1a, cut to what a double holds.
+    std::uint64_t mark = 14695981039346656037U;
+    for (const char c : wall) {
+        mark = (mark ^ static_cast<unsigned char>(c)) * 1099511628211U;
+    }
+    return static_cast<double>(mark >> 12);
+}
+
+void FixChargeGranContact::tellOfLostWalls()
+{
+    double lost = 0;
+    for (const auto& [mark, charge] : restartedToWall_) {
+        lost += charge;
+    }
+    if (lost != 0) {
+        std::ostringstream text;
+        text << "WARNING: the restart file gives " << lost
+             << " C to walls that the script does not have any more; the books go on without it.\n";
+        tell(text.str());
+    }
+    restartedToWall_.clear();
 }
 
 void FixChargeGranContact::refreshWalls()
@@ -42,10 +69,12 @@ void FixChargeGranContact::refreshWalls()
             }
         }
     }
-    if (!restartedToWall_.empty() && restartedToWall_.size() == now.size()) {
-        std::transform(restartedToWall_.begin(), restartedToWall_.end(), given.begin(),
-                       [](double charge) { return CompensatedSum(charge); });
-        restartedToWall_.clear();
+    for (std::size_t row = 0; row < now.size(); ++row) {
+        const auto earlier = restartedToWall_.find(markOf(now[row].wall.name));
+        if (earlier != restartedToWall_.end()) {
+            given[row] = CompensatedSum(earlier->second);
+            restartedToWall_.erase(earlier);
+        }
     }
     walls_ = std::move(now);
     transfer_.setWalls(std::move(types), std::move(transfers), std::move(keeps));

@@ -29,6 +29,7 @@ public:
     Box box() const override;
     std::array<bool, 3> periodic() const override;
     const std::vector<DemWall>& walls() const override { return walls_; }
+    int particleTypes() const override;
     std::string planeOfMotion() const override;
     bool charging() const override { return charging_ != nullptr; }
     std::string chargingDescription() const override;

@@ -54,6 +54,16 @@ Complaints LiggghtsDem::check() const
             script_,
             "superquadric particles found; only spheres carry charge here. Use 'atom_style hybrid granular charge'.");
     }
+    if (drag_) {
+        for (const char* style : {"freeze", "setforce"}) {
+            if (lmp_->modify->n_fixes_style(style) > 0) {
+                complaints.add(
+                    script_, "fix " + std::string(style)
+                                 + " found; the gas acts after it, so it would not hold its particles. Leave them out "
+                                   "of the group of 'fix nve/sphere' instead.");
+            }
+        }
+    }
     if (const auto* fix = dynamic_cast<FixEfieldHim*>(FixCoupleCfdEfield::find(lmp_.get()))) {
         complaints.add(script_,
                        "fix " + std::string(fix->id)

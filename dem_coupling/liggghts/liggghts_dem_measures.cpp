@@ -64,6 +64,11 @@ double LiggghtsDem::chargingAcceleration() const
     return charging_ ? charging_->transfer().pairs().acceleration() : 1;
 }
 
+int LiggghtsDem::particleTypes() const
+{
+    return lmp_->atom->ntypes;
+}
+
 std::vector<WallEquilibrium> LiggghtsDem::equilibria() const
 {
     std::vector<WallEquilibrium> found;

@@ -37,7 +37,6 @@ RegionSums sumOver(const DemParticles& particles, const Points& field, const Wal
         }
         if (layer < 1) {
             sums.wallParticles += 1;
-            sums.wallMass += mass;
             sums.wallSquaredSpeed += particles.velocity.row(row).square().sum();
             sums.forceOnWall += charge * field.row(row).matrix().dot(wall.toWall.transpose());
         }
@@ -47,8 +46,8 @@ RegionSums sumOver(const DemParticles& particles, const Points& field, const Wal
 
 void sumOverRanks(RegionSums& sums, MPI_Comm communicator)
 {
-    std::vector<double> all{sums.particles, sums.mass,     sums.charge,     sums.wallParticles,
-                            sums.wallSquaredSpeed, sums.wallMass, sums.forceOnWall};
+    std::vector<double> all{sums.particles,        sums.mass,       sums.charge, sums.wallParticles,
+                            sums.wallSquaredSpeed, sums.forceOnWall};
     all.insert(all.end(), sums.layers.begin(), sums.layers.end());
     MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, communicator);
     sums.particles = all[0];
@@ -56,9 +55,8 @@ void sumOverRanks(RegionSums& sums, MPI_Comm communicator)
     sums.charge = all[2];
     sums.wallParticles = all[3];
     sums.wallSquaredSpeed = all[4];
-    sums.wallMass = all[5];
-    sums.forceOnWall = all[6];
-    std::copy(all.begin() + 7, all.end(), sums.layers.begin());
+    sums.forceOnWall = all[5];
+    std::copy(all.begin() + 6, all.end(), sums.layers.begin());
 }
 
 ChargeHistogram::ChargeHistogram(double lower, double upper, int bins) : lower_(lower), width_((upper - lower) / bins)

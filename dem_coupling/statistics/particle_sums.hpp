@@ -12,13 +12,12 @@ namespace him {
 /// Numbers of one moment in one region, summed over ranks.
 struct RegionSums {
     double particles = 0;
-    double mass = 0;             ///< [kg]
-    double charge = 0;           ///< [C]
-    double wallParticles = 0;    ///< in the first layer
-    double wallSquaredSpeed = 0; ///< sum over these of v^2 [m2/s2]
-    double wallMass = 0;         ///< of these [kg]
-    double forceOnWall = 0;      ///< sum over these of the electrostatic force towards the wall [N]
-    std::vector<double> layers;  ///< particles by layer number, the first at the wall
+    double mass = 0;              ///< [kg]
+    double charge = 0;            ///< [C]
+    double wallParticles = 0;     ///< in the first layer
+    double wallSquaredSpeed = 0;  ///< sum over these of v^2 [m2/s2]
+    double forceOnWall = 0;       ///< sum over these of the electrostatic force towards the wall [N]
+    std::vector<double> layers;   ///< particles by layer number, the first at the wall
 
     double chargePerMass() const { return mass > 0 ? charge / mass : 0; }
     double meanCharge() const { return particles > 0 ? charge / particles : 0; }

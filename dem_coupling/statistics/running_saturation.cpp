@@ -22,7 +22,7 @@ void RunningSaturation::add(double chargingTime, double value)
         }
     }
     if (++offered_ >= nextFit_) {
-        curve_ = fitSaturation(times_, values_, 1);
+        curve_ = fitSaturationCurve(times_, values_);
         nextFit_ = offered_ + offered_ / 20 + 1;
     }
 }

@@ -39,15 +39,10 @@ Trial tryRate(const std::vector<double>& times, const std::vector<double>& value
 
 }  // namespace
 
-double SaturationCurve::at(double time, double acceleration) const
+SaturationCurve fitSaturationCurve(const std::vector<double>& times, const std::vector<double>& values)
 {
-    return -limit * std::expm1(-acceleration * time / timeScale);
-}
-
-SaturationCurve fitSaturation(const std::vector<double>& times, const std::vector<double>& values, double acceleration)
-{
-    if (times.size() != values.size() || !(acceleration > 0)) {
-        throw std::invalid_argument("a saturation curve needs one value per time and a positive acceleration");
+    if (times.size() != values.size()) {
+        throw std::invalid_argument("a saturation curve needs one value per time");
     }
     if (std::any_of(times.begin(), times.end(), [](double time) { return !(time > 0); })) {
         throw std::invalid_argument("a saturation curve needs positive times");
@@ -58,7 +53,8 @@ SaturationCurve fitSaturation(const std::vector<double>& times, const std::vecto
         return curve;
     }
     const double slowest = 0.01 / *std::max_element(times.begin(), times.end());
-    const double fastest = 10 / *std::min_element(times.begin(), times.end());  // beyond it the first value is Q_inf to 5e-5
+    const double fastest =
+        10 / *std::min_element(times.begin(), times.end());  // beyond it the first value is Q_inf to 5e-5
     const double step = std::log(fastest / slowest) / scanPoints;
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -83,7 +79,7 @@ SaturationCurve fitSaturation(const std::vector<double>& times, const std::vecto
     const double rate = slowest * std::exp(0.5 * (low + high));
     const Trial trial = tryRate(times, values, rate);
     curve.limit = trial.limit;
-    curve.timeScale = acceleration / rate;
+    curve.timeScale = 1 / rate;
     curve.deviation = std::sqrt(trial.squares / static_cast<double>(times.size()));
     curve.known = true;
     return curve;

@@ -11,8 +11,8 @@ namespace him {
 namespace {
 
 struct Cloud {
-    double x, y, z;          ///< centre [m]
-    double inverseSquare;    ///< 1/R^2 [1/m2]
+    double x, y, z;        ///< centre [m]
+    double inverseSquare;  ///< 1/R^2 [1/m2]
     double sign;
 };
 
@@ -141,13 +141,14 @@ void CloudDeposit::addCloudWithoutMoment(const CloudSources& sources, Index row,
         }
     };
     addSource(sources.position.row(row).matrix().transpose(), nullptr);
-    for (auto n = static_cast<std::size_t>(sources.firstImage[r]); n < static_cast<std::size_t>(sources.firstImage[r + 1]); ++n) {
+    for (auto n = static_cast<std::size_t>(sources.firstImage[r]);
+         n < static_cast<std::size_t>(sources.firstImage[r + 1]); ++n) {
         addSource(sources.images[n].position, &sources.images[n]);
     }
     const Eigen::Vector4d factor = moments.ldlt().solve(Eigen::Vector4d::UnitX());
     for (const Sample& sample : samples_) {
-        charge_[sample.cell] += sources.charge[row] * sample.sign * sample.weight
-                                * (factor[0] + factor.tail<3>().dot(sample.offset));
+        charge_[sample.cell] +=
+            sources.charge[row] * sample.sign * sample.weight * (factor[0] + factor.tail<3>().dot(sample.offset));
     }
 }
 
@@ -168,6 +169,14 @@ void CloudDeposit::depositOne(const CloudSources& sources, Index row, Scalars& c
     charge = charge_.head(around.count);
 }
 
+/// False where neither the cloud of a copied charge nor an image's can give anything to a cell of this rank.
+bool CloudDeposit::reachesOwn(const CloudSources& sources, Index row, const Surroundings& around) const
+{
+    const auto r = static_cast<std::size_t>(row);
+    return sources.firstImage[r + 1] > sources.firstImage[r]
+           || around.ownCentres.squaredDistance(sources.position.row(row).matrix().transpose()) < radius_ * radius_;
+}
+
 void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
 {
     cellCharge.setZero(mesh_.ownCells);
@@ -175,9 +184,18 @@ void CloudDeposit::deposit(const CloudSources& sources, Scalars& cellCharge)
     while (row < sources.size()) {
         const std::int32_t host = sources.cell[static_cast<std::size_t>(row)];
         const Surroundings& around = table_.of(host);
+        const Index first = row;
+        while (row < sources.size() && sources.cell[static_cast<std::size_t>(row)] == host) {
+            ++row;
+        }
+        if (around.ownCentres.empty()) {
+            continue;  // copies too far away
+        }
         loadCells(around);
-        for (; row < sources.size() && sources.cell[static_cast<std::size_t>(row)] == host; ++row) {
-            add(sources, row, around);
+        for (Index one = first; one < row; ++one) {
+            if (host < mesh_.ownCells || reachesOwn(sources, one, around)) {
+                add(sources, one, around);
+            }
         }
         const double* charge = charge_.data();
         for (const RowRange& range : around.cells) {

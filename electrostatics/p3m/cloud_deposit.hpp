@@ -24,6 +24,7 @@ public:
     void depositOne(const CloudSources& sources, Index row, Scalars& charge);
 
 private:
+    bool reachesOwn(const CloudSources& sources, Index row, const Surroundings& around) const;
     void loadCells(const Surroundings& around);
     void add(const CloudSources& sources, Index row, const Surroundings& around);
     void addCloud(const CloudSources& sources, Index row, bool normalise);
@@ -33,18 +34,18 @@ private:
     SurroundingsTable& table_;
     double radius_;
     int exponent_;
-    double amplitude_;  ///< c [1/m3]
+    double amplitude_;                            ///< c [1/m3]
     Scalars cellX_, cellY_, cellZ_, cellVolume_;  ///< of all cells of the local mesh, padded
     Index loaded_ = 0;                            ///< cells around the present host, in whole blocks
     Scalars x_, y_, z_, volume_;                  ///< of these cells, one after the other
     struct Sample {
-        Index cell;      ///< among the cells around the host
-        double weight;   ///< [m3]
+        Index cell;     ///< among the cells around the host
+        double weight;  ///< [m3]
         double sign;
         Vector3 offset;  ///< from the source, over R, mirrored back for an image
     };
     std::vector<Sample> samples_;
-    Scalars cloud_, charge_;                      ///< at these cells: weights of one charge, charge of all in the host
+    Scalars cloud_, charge_;  ///< at these cells: weights of one charge, charge of all in the host
 };
 
 }  // namespace him

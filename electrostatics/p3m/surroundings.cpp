@@ -29,7 +29,10 @@ bool Surroundings::reaches(Index cell) const
 }
 
 SurroundingsTable::SurroundingsTable(const LocalMesh& mesh, double cloudRadius)
-    : mesh_(mesh), radius_(cloudRadius), table_(static_cast<std::size_t>(mesh.cells())), mark_(static_cast<std::size_t>(mesh.cells()), 0)
+    : mesh_(mesh),
+      radius_(cloudRadius),
+      table_(static_cast<std::size_t>(mesh.cells())),
+      mark_(static_cast<std::size_t>(mesh.cells()), 0)
 {
     findPlanes();
     findExactFaces();
@@ -103,7 +106,7 @@ void SurroundingsTable::findExactFaces()
         box.extend(centre + extent);
     }
     const auto gapTo = [&](std::size_t plane, const Vector3& point) {
-        return (point - point.cwiseMax(boxes[plane].lower).cwiseMin(boxes[plane].upper)).norm();
+        return std::sqrt(boxes[plane].squaredDistance(point));
     };
     const auto gap = [&](std::size_t a, std::size_t b) {
         return (boxes[a].lower - boxes[b].upper).cwiseMax(boxes[b].lower - boxes[a].upper).cwiseMax(0).norm();
@@ -229,6 +232,9 @@ std::unique_ptr<Surroundings> SurroundingsTable::make(Index cell)
         } else {
             around->cells.push_back({other, other + 1});
         }
+        if (other < mesh_.ownCells) {
+            around->ownCentres.extend(mesh_.centreOf(other));
+        }
     }
     around->cells.shrink_to_fit();
     around->count = static_cast<Index>(reached_.size());
@@ -246,8 +252,8 @@ Vector3 Image::mirroredBack(Vector3 offset, const std::vector<WallPlane>& planes
     return offset;
 }
 
-int imagesOf(const Vector3& position, const Surroundings& around, const std::vector<WallPlane>& planes, double cloudRadius,
-             Image* images)
+int imagesOf(const Vector3& position, const Surroundings& around, const std::vector<WallPlane>& planes,
+             double cloudRadius, Image* images)
 {
     if (around.planes.empty()) {
         return 0;
@@ -290,7 +296,8 @@ int imagesOf(const Vector3& position, const Surroundings& around, const std::vec
             bool square = true;
             auto free = image.mirrors.begin();
             for (; *free >= 0; ++free) {
-                square = square && std::abs(planes[static_cast<std::size_t>(*free)].normal.dot(plane.normal)) < perpendicular;
+                square = square
+                         && std::abs(planes[static_cast<std::size_t>(*free)].normal.dot(plane.normal)) < perpendicular;
             }
             if (square) {
                 *free = next;

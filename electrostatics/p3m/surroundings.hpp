@@ -25,15 +25,16 @@ struct WallPlane {
 /// without leaving the cloud. A charge acts through its short-range part, its cloud and its images on these alone, so what
 /// lies behind a baffle does not feel it; the potential of the mesh carries the rest.
 struct Surroundings {
-    std::vector<RowRange> cells;              ///< runs of consecutive cell numbers
-    Index count = 0;                          ///< cells in all of these
-    std::vector<std::int32_t> planes;         ///< planes in which its charges may be mirrored
-    std::vector<std::int32_t> unmirrored;     ///< own boundary faces whose value the images do not make zero
+    std::vector<RowRange> cells;  ///< runs of consecutive cell numbers
+    Index count = 0;              ///< cells in all of these
+    Box ownCentres;               ///< around the centres of the rank's own cells among these [m]; empty: there are none
+    std::vector<std::int32_t> planes;            ///< planes in which its charges may be mirrored
+    std::vector<std::int32_t> unmirrored;        ///< own boundary faces whose value the images do not make zero
     std::vector<std::int32_t> unmirroredCopies;  ///< the same of other ranks and periods
-    bool inexactWall = false;                 ///< some boundary face in reach is not mirrored exactly (curved walls, wedges)
-    bool wallWithoutImage = false;            ///< some boundary face in reach lies in none of the planes
-    bool hides = false;                       ///< some cell in reach of the cloud cannot be walked to
-    bool reaches(Index cell) const;           ///< whether the cell is among `cells`
+    bool inexactWall = false;        ///< some boundary face in reach is not mirrored exactly (curved walls, wedges)
+    bool wallWithoutImage = false;   ///< some boundary face in reach lies in none of the planes
+    bool hides = false;              ///< some cell in reach of the cloud cannot be walked to
+    bool reaches(Index cell) const;  ///< whether the cell is among `cells`
 };
 
 /// Surroundings of the cells of a local mesh, each made when first asked for and then kept.
@@ -81,16 +82,16 @@ private:
 /// Images of a charge: mirrored in up to three planes that its cloud touches, the nearest first, and in the edges (3) and
 /// corners (7) of those that are perpendicular.
 struct Image {
-    Vector3 position;                      ///< [m]
-    double sign;                           ///< image charge over charge
-    std::array<std::int32_t, 3> mirrors;   ///< planes that made it, one after the other, -1 behind the last
+    Vector3 position;                     ///< [m]
+    double sign;                          ///< image charge over charge
+    std::array<std::int32_t, 3> mirrors;  ///< planes that made it, one after the other, -1 behind the last
 
     /// The vector that the mirrors turn into `offset`.
     Vector3 mirroredBack(Vector3 offset, const std::vector<WallPlane>& planes) const;
 };
 constexpr int mostImages = 7;
 /// @return number of images written
-int imagesOf(const Vector3& position, const Surroundings& around, const std::vector<WallPlane>& planes, double cloudRadius,
-             Image* images);
+int imagesOf(const Vector3& position, const Surroundings& around, const std::vector<WallPlane>& planes,
+             double cloudRadius, Image* images);
 
 }  // namespace him

@@ -35,19 +35,6 @@ bool onAnyRank(bool holds)
     return Foam::returnReduce(holds, Foam::orOp<bool>());
 }
 
-/// Runs `action` and turns what OpenFOAM throws into a complaint. True when nothing was thrown on this rank.
-template <class Action> bool attempt(const std::string& where, Complaints& complaints, Action&& action)
-{
-    const foamExceptions throwing;
-    try {
-        action();
-        return true;
-    } catch (const Foam::error& error) {
-        complaints.add(where, firstLine(error));
-        return false;
-    }
-}
-
 /// constant/polyMesh, or the same of a region.
 std::string meshFolder(const Foam::polyMesh& mesh)
 {
@@ -77,7 +64,8 @@ void checkSchemes(const Foam::fvMesh& mesh, const potentialNumerics& numerics, C
     });
 }
 
-/// A mesh cut into more or fewer parts than there are ranks. Collective.
+}  // namespace
+
 bool cutForThisRun(const Foam::Time& runTime, Complaints& complaints)
 {
     int parts = 0;
@@ -95,11 +83,16 @@ bool cutForThisRun(const Foam::Time& runTime, Complaints& complaints)
     return true;
 }
 
-}  // namespace
-
 void checkControlDict(const Foam::fileName& casePath, Complaints& complaints)
 {
     checkedDictionary control(casePath, "system/controlDict", complaints);
+    control.oneOf("writeControl",
+                  {"timeStep", "runTime", "adjustable", "adjustableRunTime", "clockTime", "cpuTime", "none"},
+                  "timeStep");
+    if (control.yesNo("adjustTimeStep", false)) {
+        control.complain("adjustTimeStep",
+                         "himFoam reads it, maxCo and maxDeltaT in constant/gasProperties. Write them there.");
+    }
     control.positive("deltaT");
     control.number("endTime");
     control.positive("writeInterval");
@@ -115,11 +108,12 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
     const std::string where = ofRegion("constant", region) / Foam::polyMesh::meshSubDir;
     const Foam::fileName folder = runTime.path() / where;
     const Foam::fileName system = ofRegion("system", region);
-    const std::string cutting = region == Foam::polyMesh::defaultRegion ? "decomposePar" : "decomposePar -region " + region;
+    const std::string cutting =
+        region == Foam::polyMesh::defaultRegion ? "decomposePar" : "decomposePar -region " + region;
     if (!onAllRanks(Foam::isFile(folder / "owner"))) {
         complaints.add(where, "there is no mesh in " + folder
-                                  + ", but the field method needs one. Make it with blockMesh, and cut it with " + cutting
-                                  + " for a parallel run.");
+                                  + ", but the field method needs one. Make it with blockMesh, and cut it with "
+                                  + cutting + " for a parallel run.");
         complete = false;
     }
     const std::size_t before = complaints.lines().size();
@@ -134,9 +128,8 @@ Foam::autoPtr<Foam::fvMesh> openMesh(const Foam::Time& runTime, Complaints& comp
                               && checkedDictionary::exists(runTime.globalPath(), system / "fvSolution");
     Foam::autoPtr<Foam::fvMesh> mesh;
     attempt(where, complaints, [&] {
-        mesh.reset(new Foam::fvMesh(
-            Foam::IOobject(region, runTime.timeName(), runTime,
-                           haveNumerics ? Foam::IOobject::MUST_READ : Foam::IOobject::NO_READ)));
+        mesh.reset(new Foam::fvMesh(Foam::IOobject(
+            region, runTime.timeName(), runTime, haveNumerics ? Foam::IOobject::MUST_READ : Foam::IOobject::NO_READ)));
     });
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
 }
@@ -166,9 +159,8 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
     }
 
     std::unique_ptr<foamPoissonMesh> poisson;
-    attempt(where, complaints, [&] {
-        poisson = std::make_unique<foamPoissonMesh>(mesh, permittivity, numerics, neutralisingBackground);
-    });
+    attempt(where, complaints,
+            [&] { poisson = std::make_unique<foamPoissonMesh>(mesh, permittivity, numerics, neutralisingBackground); });
     if (!onAllRanks(bool(poisson))) {
         return nullptr;
     }
@@ -178,8 +170,9 @@ std::unique_ptr<foamPoissonMesh> openPoissonMesh(const Foam::fvMesh& mesh, doubl
     attempt("electrostaticProperties", complaints, [&] { poisson->setDielectrics(dielectrics, complaints); });
     if (poisson->matter() && numerics.gradient.rfind("Gauss linear", 0) != 0) {
         complaints.add(std::string(ofRegion("system", mesh.name()) / "fvSchemes") + ": gradSchemes",
-                       "found `" + numerics.gradient + "`, but with insulating walls or zones of other permittivity the gradient "
-                                                       "is made of the potentials of the faces: write Gauss linear.");
+                       "found `" + numerics.gradient
+                           + "`, but with insulating walls or zones of other permittivity the gradient "
+                             "is made of the potentials of the faces: write Gauss linear.");
     }
     return poisson;
 }
@@ -191,9 +184,10 @@ void checkConditions(const FieldSettings& settings, const foamPoissonMesh& mesh,
     } else {
         refuseConditionsUnknownToP3m(mesh.electricPotential(), complaints);
         if (mesh.matter() && !mesh.matter()->uniform()) {
-            complaints.add("constant/electrostaticProperties: zonePermittivity",
-                           "p3m knows one permittivity, that of the gas, in all cells. Leave zonePermittivity out (charge on "
-                           "insulating walls works all the same), or use fieldMethod him or himCell.");
+            complaints.add(
+                "constant/electrostaticProperties: zonePermittivity",
+                "p3m knows one permittivity, that of the gas, in all cells. Leave zonePermittivity out (charge on "
+                "insulating walls works all the same), or use fieldMethod him or himCell.");
         }
     }
 }
@@ -219,9 +213,10 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
         }
         if (!mesh) {
             if (target == insulatingTarget) {
-                complaints.add(where + wall, "an insulating wall needs faces of a mesh to carry its charge, and fieldMethod "
-                                                 + settings.field.method
-                                                 + " reads none. Use him, himCell or p3m, or map the wall to grounded.");
+                complaints.add(where + wall,
+                               "an insulating wall needs faces of a mesh to carry its charge, and fieldMethod "
+                                   + settings.field.method
+                                   + " reads none. Use him, himCell or p3m, or map the wall to grounded.");
             } else if (target != groundedTarget) {
                 complaints.add(where + wall, "unknown target `" + target + "`; fieldMethod " + settings.field.method
                                                  + " reads no mesh, so the known ones are grounded, noTransfer.");
@@ -231,10 +226,14 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
         if (wallCharges::isInsulating(target, mesh->matter())) {
             continue;
         }
+        if (!mesh->matter() && settings.dielectrics.any()) {
+            continue;  // the walls could not be made, for reasons that have been said
+        }
         if (target == insulatingTarget) {
-            complaints.add(where + wall, "an insulating wall needs faces of the mesh to carry its charge, and the case names none. "
-                                         "Name internal faces in insulatingWalls of constant/electrostaticProperties, or give a "
-                                         "patch the condition insulatingWall in electricPotential.");
+            complaints.add(where + wall,
+                           "an insulating wall needs faces of the mesh to carry its charge, and the case names none. "
+                           "Name internal faces in insulatingWalls of constant/electrostaticProperties, or give a "
+                           "patch the condition insulatingWall in electricPotential.");
             continue;
         }
         std::vector<std::string> known;
@@ -245,15 +244,21 @@ void checkWallTargets(const caseSettings& settings, const foamPoissonMesh* mesh,
         }
         const Foam::label patch = mesh->mesh().boundaryMesh().findPatchID(target);
         if (patch < 0 || mesh->electricPotential().boundaryField()[patch].coupled()) {
-            complaints.add(where + wall, "unknown target `" + target + "`; known: the patches " + joined(known)
-                                             + ", and noTransfer.");
+            const std::vector<std::string> insulating =
+                mesh->matter() ? mesh->matter()->wallNames() : std::vector<std::string>();
+            complaints.add(
+                where + wall,
+                "unknown target `" + target + "`; known: the patches " + joined(known)
+                    + (insulating.empty() ? "" : ", the insulating walls " + joined(insulating) + " (or insulating)")
+                    + ", and noTransfer.");
         } else if (!mesh->electricPotential().boundaryField()[patch].fixesValue()) {
             const std::string type = mesh->electricPotential().boundaryField()[patch].type();
-            complaints.add(where + wall,
-                           "the potential on patch " + target + " is " + type
-                               + ", which does not fix a voltage. "
-                                 "Give the patch a fixedValue in electricPotential, or the condition insulatingWall where it "
-                                 "keeps its charge, or map the wall to noTransfer.");
+            complaints.add(
+                where + wall,
+                "the potential on patch " + target + " is " + type
+                    + ", which does not fix a voltage. "
+                      "Give the patch a fixedValue in electricPotential, or the condition insulatingWall where it "
+                      "keeps its charge, or map the wall to noTransfer.");
         }
     }
 }

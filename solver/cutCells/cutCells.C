@@ -11,12 +11,13 @@ Description
     are on one rank with their cells.
 
 Usage
-    cutCells -axis x|y|z (-at "(PLACE ...)" | -parts N) [-zone NAME]
-        [-region NAME] [-time T]
+    cutCells -axis x|y|z (-at "(PLACE ...)" | -parts N)
+        [-zone NAME [-layers N]] [-region NAME] [-time T]
 
     -parts N reads the cloud `particles` of the time -time (default: the last).
-    With -zone only the cells of that zone are cut at the places; the others
-    are dealt out along the axis so that all slabs have as many cells.
+    With -zone only the cells of that zone, and of -layers layers around it,
+    are cut at the places; the others are dealt out along the axis so that all
+    slabs have as many cells.
 
 SourceFiles
     cutCells.C
@@ -151,17 +152,59 @@ void dealOut(std::vector<Foam::label> cells, const Foam::polyMesh& mesh, const c
     }
 }
 
-Foam::labelList partsOfCells(const Foam::polyMesh& mesh, const cutting& cuts, const Foam::word& zoneName,
+/// The cells and so many layers around them, by common faces.
+std::vector<Foam::label> withLayers(const Foam::polyMesh& mesh, const Foam::labelUList& cells, Foam::label layers)
+{
+    std::vector<Foam::label> all(cells.begin(), cells.end());
+    std::vector<bool> taken(static_cast<std::size_t>(mesh.nCells()), false);
+    for (const Foam::label cell : all) {
+        taken[static_cast<std::size_t>(cell)] = true;
+    }
+    std::size_t first = 0;
+    for (Foam::label layer = 0; layer < layers; ++layer) {
+        const std::size_t end = all.size();
+        for (; first < end; ++first) {
+            for (const Foam::label neighbour : mesh.cellCells()[all[first]]) {
+                if (!taken[static_cast<std::size_t>(neighbour)]) {
+                    taken[static_cast<std::size_t>(neighbour)] = true;
+                    all.push_back(neighbour);
+                }
+            }
+        }
+    }
+    return all;
+}
+
+/// Where -zone and -layers want a mesh cut.
+struct cutRegion {
+    Foam::word zone;  ///< empty: everywhere
+    Foam::label layers = 0;
+};
+
+cutRegion readCutRegion(const Foam::argList& args, Complaints& complaints)
+{
+    cutRegion region{args.lookupOrDefault<Foam::word>("zone", Foam::word::null), 0};
+    if (args.found("layers")) {
+        region.layers = args.get<Foam::label>("layers");
+        if (region.zone.empty() || region.layers < 0) {
+            complaints.add("-layers", "expected a whole number of layers around the cells of -zone, 0 or more.");
+        }
+    }
+    return region;
+}
+
+Foam::labelList partsOfCells(const Foam::polyMesh& mesh, const cutting& cuts, const cutRegion& region,
                              Complaints& complaints)
 {
     Foam::labelList part(mesh.nCells(), -1);
     const auto cut = [&](Foam::label cell) { part[cell] = partAt(cuts, mesh.cellCentres()[cell][cuts.axis]); };
-    if (zoneName.empty()) {
+    if (region.zone.empty()) {
         for (Foam::label cell = 0; cell < mesh.nCells(); ++cell) {
             cut(cell);
         }
         return part;
     }
+    const Foam::word& zoneName = region.zone;
     const Foam::label zone = mesh.cellZones().findZoneID(zoneName);
     if (zone < 0) {
         std::ostringstream names;
@@ -172,7 +215,7 @@ Foam::labelList partsOfCells(const Foam::polyMesh& mesh, const cutting& cuts, co
                                     + (names.str().empty() ? ", nor any other." : ". It has:" + names.str() + "."));
         return part;
     }
-    for (const Foam::label cell : mesh.cellZones()[zone]) {
+    for (const Foam::label cell : withLayers(mesh, mesh.cellZones()[zone], region.layers)) {
         cut(cell);
     }
     std::vector<Foam::label> others;
@@ -203,12 +246,12 @@ void run(const Foam::argList& args, MPI_Comm communicator)
         cuts.places =
             args.found("at") ? givenPlaces(args, complaints) : balancedPlaces(args, time, cuts.axis, complaints);
     }
+    const cutRegion where = readCutRegion(args, complaints);
     stopOnComplaints(complaints, "Options", communicator);
 
     const Foam::word region = args.lookupOrDefault<Foam::word>("region", Foam::polyMesh::defaultRegion);
     const Foam::polyMesh mesh(Foam::IOobject(region, time.timeName(), time, Foam::IOobject::MUST_READ));
-    const Foam::labelList part =
-        partsOfCells(mesh, cuts, args.lookupOrDefault<Foam::word>("zone", Foam::word::null), complaints);
+    const Foam::labelList part = partsOfCells(mesh, cuts, where, complaints);
     stopOnComplaints(complaints, "Options", communicator);
 
     const Foam::labelIOList written(Foam::IOobject("cellDecomposition", mesh.facesInstance(), mesh,
@@ -247,6 +290,7 @@ int main(int argc, char* argv[])
     Foam::argList::addOption("at", "\"(PLACE ...)\"", "Where to cut [m]");
     Foam::argList::addOption("parts", "N", "In place of -at: N slabs with as many particles in each");
     Foam::argList::addOption("zone", "name", "Cut these cells only; deal out the others evenly");
+    Foam::argList::addOption("layers", "N", "Cut as many layers of cells around the zone as well (default: 0)");
     Foam::argList::addOption("region", "name", "Mesh to cut");
     Foam::argList::addOption("time", "T", "Time of the particles for -parts (default: the last)");
     Foam::argList::noParallel();

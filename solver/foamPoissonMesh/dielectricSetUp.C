@@ -5,6 +5,7 @@
 #include "foamPoissonMesh/insulatingWallFvPatchScalarField.H"
 #include "settings/electricRegion.H"
 
+#include "OSspecific.H"
 #include "cyclicPolyPatch.H"
 #include "processorCyclicPolyPatch.H"
 #include "processorPolyPatch.H"
@@ -83,6 +84,13 @@ std::unique_ptr<dielectrics> dielectrics::create(const dielectricChoices& choice
     }
     const std::size_t before = complaints.lines().size();
     std::unique_ptr<dielectrics> made(new dielectrics(permittivity, potential));
+    const fileName written(made->sigma_.objectPath());
+    if (!made->continued_ && returnReduce(isFile(written), orOp<bool>())) {
+        complaints.add(
+            potential.time().timeName() + "/wallSurfaceCharge",
+            "the file is no surfaceScalarField on every rank. Continue from a time that has one, or remove it to begin "
+            "without charge on the walls.");
+    }
     made->setPermittivity(choices, complaints);
     made->findWalls(choices, potential, complaints);
     if (returnReduce(complaints.lines().size() > before, orOp<bool>())) {
@@ -121,6 +129,12 @@ void dielectrics::findWalls(const dielectricChoices& choices, const volScalarFie
         const std::string where = std::string(propertiesFile) + "insulatingWalls: " + choice.name;
         const int wall = static_cast<int>(names_.size());
         names_.push_back(choice.name);
+        if (choice.faceZone.empty() && choice.zones.first.empty()) {
+            continue;  // what is wrong has been said
+        }
+        if (mesh.boundaryMesh().findPatchID(choice.name) >= 0) {
+            complaints.add(where, "a patch has this name as well. Give the wall another one.");
+        }
         std::vector<label> found;
         if (!choice.faceZone.empty()) {
             const label zone = mesh.faceZones().findZoneID(choice.faceZone);

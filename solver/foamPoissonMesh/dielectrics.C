@@ -26,7 +26,11 @@ dielectrics::dielectrics(double permittivity, volScalarField& potential)
       ratio_(IOobject("permittivityRatio", potential.time().timeName(), potential.mesh()), potential.mesh(),
              dimensionedScalar("one", dimless, 1.0)),
       sigma_(IOobject("wallSurfaceCharge", potential.time().timeName(), potential.mesh(), IOobject::READ_IF_PRESENT),
-             potential.mesh(), dimensionedScalar(dimSurfaceCharge, Zero))
+             potential.mesh(), dimensionedScalar(dimSurfaceCharge, Zero)),
+      continued_(
+          returnReduce(IOobject("wallSurfaceCharge", potential.time().timeName(), potential.mesh(), IOobject::MUST_READ)
+                           .typeHeaderOk<surfaceScalarField>(true),
+                       andOp<bool>()))
 {
 }
 

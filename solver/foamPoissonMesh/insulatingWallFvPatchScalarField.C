@@ -3,6 +3,7 @@
 
 #include "electrostatics/constants.hpp"
 
+#include "HashSet.H"
 #include "OStringStream.H"
 #include "addToRunTimeSelectionTable.H"
 #include "fvPatchFieldMapper.H"
@@ -60,6 +61,14 @@ insulatingWallFvPatchScalarField::insulatingWallFvPatchScalarField(const fvPatch
       relativePermittivity_(positive(dict, p, "relativePermittivity")),
       outerPotential_(dict.getOrDefault<scalar>("outerPotential", 0))
 {
+    for (const word& name : dict.toc()) {
+        if (!wordHashSet{"type", "patchType", "value", "thickness", "relativePermittivity", "outerPotential"}.found(
+                name)) {
+            FatalIOErrorInFunction(dict) << p.name() << ": unknown entry `" << name
+                                         << "`; insulatingWall knows thickness, relativePermittivity and outerPotential"
+                                         << exit(FatalIOError);
+        }
+    }
     refGrad() = 0;
     setCharge(scalarField(p.size(), Zero), scalarField(p.size(), him::epsilon0));
     fvPatchScalarField::operator=(patchInternalField());

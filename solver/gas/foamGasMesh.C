@@ -2,6 +2,7 @@
 #include "gas/foamGasMesh.H"
 
 #include "foamPoissonMesh/conversions.H"
+#include "settings/checkedDictionary.H"
 
 #include "IStringStream.H"
 #include "fvm.H"
@@ -51,8 +52,9 @@ void foamGasMesh::smooth(Scalars& perVolume, double length) const
     }
     volScalarField source("spreadSource", spread);
     spread.correctBoundaryConditions();
-    // Here and not in system/fvSchemes: the conservation of solid volume must not hang on it.
-    IStringStream words("linear corrected");
+    // Here and not in system/fvSchemes: the conservation of solid volume must not hang on it. Uncorrected, so that it stays its own
+    // adjoint and makes nothing negative where faces stand askew; the length is a choice anyway.
+    IStringStream words("linear uncorrected");
     fv::gaussLaplacianScheme<scalar, scalar> scheme(mesh_, words);
     const surfaceScalarField area(
         IOobject("area", mesh_.time().timeName(), mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
@@ -64,7 +66,10 @@ void foamGasMesh::smooth(Scalars& perVolume, double length) const
     controls.add("preconditioner", word("DIC"));
     controls.add("tolerance", tolerance);
     controls.add("relTol", scalar(0));
-    equation.solve(controls);
+    if (!equation.solve(controls).converged()) {
+        throw std::runtime_error("the solid volume could not be spread over smoothingLength " + shown(length)
+                                 + " m: the equation does not converge. Look for cells without volume (checkMesh).");
+    }
     forAll(spread, cell)
     {
         perVolume[cell] = spread[cell];

@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gas/gasChecks.H"
 
+#include "checks/caseChecks.H"
+#include "electrostatics/constants.hpp"
+#include "gas/gasNumericsChecks.H"
 #include "gas/gasTurbulence.H"
 #include "settings/checkedDictionary.H"
 #include "settings/foamExceptions.H"
 
 #include "OSspecific.H"
 #include "coupledPolyPatch.H"
+#include "cyclicPolyPatch.H"
+#include "directionMixedFvPatchFields.H"
 #include "emptyPolyPatch.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvc.H"
-#include "slipFvPatchFields.H"
+#include "mixedFvPatchFields.H"
+#include "processorCyclicPolyPatch.H"
+#include "transformFvPatchFields.H"
 #include "volFields.H"
 #include "wedgePolyPatch.H"
 
+#include <array>
 #include <cmath>
 
 namespace him {
@@ -60,6 +68,24 @@ Foam::autoPtr<Field> readField(const Foam::word& name, const Foam::fvMesh& mesh,
 constexpr double largestAtCentre = 1;
 constexpr double largestDivided = 2;
 
+/// A sphere may fill this share of the cell that it is in when it is smoothed: its neighbours come on top.
+constexpr double mostOfACell = 0.5;
+
+/// Share of a cubic cell that a sphere fills which is laid into it and spread by 1 - L^2/4 laplacian: the answer of the cells of a
+/// lattice to a point, by its expansion for a long length (3 % at L = 1.3 h, better beyond) and by the neighbours' first
+/// for a short one.
+/// @param diameter, length  over the edge of the cell
+double smoothedShare(double diameter, double length)
+{
+    const double k = 2 / length;
+    const double kept = k < 1.5 ? 0.2527 * k * k - k * k * k / (4 * pi) : k * k / (k * k + 6);
+    return pi / 6 * diameter * diameter * diameter * kept;
+}
+
+/// A cyclic patch lies across an axis when its normals do to this share; periods are the same when they differ by less than this one.
+constexpr double alongAxis = 0.9;
+constexpr double samePeriod = 1e-6;
+
 /// The DEM's weight and the gas's buoyancy must be of one gravity.
 void checkGravity(const gasProperties& gas, const DemPort& dem, Complaints& complaints)
 {
@@ -75,15 +101,54 @@ void checkGravity(const gasProperties& gas, const DemPort& dem, Complaints& comp
     }
 }
 
-/// The memory that the flux keeps of the step before is that of Euler's scheme.
-void checkTimeScheme(const Foam::fvMesh& mesh, Complaints& complaints)
+/// What conditions of U and p find missing, a void fraction of another name or a density.
+template <class Field> void checkConditions(Field& field, Complaints& complaints)
 {
-    Foam::ITstream words(mesh.ddtScheme("ddt(voidFraction,U)"));
-    const Foam::word scheme(words);
-    if (scheme != "Euler") {
-        complaints.add("system/fvSchemes: ddtSchemes", "found " + scheme
-                                                           + ", but the gas takes Euler only. Write default "
-                                                             "Euler;");
+    for (auto& patch : field.boundaryFieldRef()) {
+        // fixedFluxPressure is told its gradient by the flow.
+        if (!Foam::isA<Foam::fixedFluxPressureFvPatchScalarField>(patch)) {
+            attempt(field.time().timeName() + "/" + field.name() + ": " + patch.patch().name(), complaints,
+                    [&] { patch.updateCoeffs(); });
+        }
+    }
+}
+
+/// Where the DEM is periodic the gas must be, with the same period, and the other way round. Collective.
+void checkPeriodicity(const Foam::fvMesh& mesh, const DemPort& dem, Complaints& complaints)
+{
+    std::array<bool, 3> cyclic{};
+    for (const Foam::fvPatch& patch : mesh.boundary()) {
+        const bool periodic =
+            Foam::isA<Foam::cyclicPolyPatch>(patch.patch()) || Foam::isA<Foam::processorCyclicPolyPatch>(patch.patch());
+        const Foam::vectorField normals(periodic ? patch.nf()() : Foam::vectorField());
+        for (const Foam::vector& normal : normals) {
+            for (int axis = 0; axis < 3; ++axis) {
+                cyclic[static_cast<std::size_t>(axis)] |= std::abs(normal[axis]) > alongAxis;
+            }
+        }
+    }
+    const Foam::boundBox bounds(mesh.points(), true);
+    const Box box = dem.box();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto n = static_cast<std::size_t>(axis);
+        const bool gas = Foam::returnReduce(bool(cyclic[n]), Foam::orOp<bool>());
+        const std::string direction(1, "xyz"[axis]);
+        const double allowed = samePeriod * box.size()[axis];
+        if (gas != dem.periodic()[n]) {
+            complaints.add(
+                "DEM script: boundary",
+                gas ? "the gas is cyclic along " + direction + ", but the DEM is not. Write p for this direction."
+                    : "the DEM is periodic along " + direction
+                          + ", but the gas has no cyclic patches there. Write f for this direction, or give the "
+                            "gas's mesh cyclic patches.");
+        } else if (gas
+                   && (std::abs(box.lower[axis] - bounds.min()[axis]) > allowed
+                       || std::abs(box.upper[axis] - bounds.max()[axis]) > allowed)) {
+            complaints.add("DEM script: region", "both are periodic along " + direction + ", the DEM from "
+                                                     + shown(box.lower[axis]) + " to " + shown(box.upper[axis])
+                                                     + " m, the gas from " + shown(bounds.min()[axis]) + " to "
+                                                     + shown(bounds.max()[axis]) + " m. Give both the same box.");
+        }
     }
 }
 
@@ -124,7 +189,14 @@ void checkPatches(const Foam::volVectorField& U, const Foam::volScalarField& p, 
             continue;
         }
         const bool fluxPressure = Foam::isA<Foam::fixedFluxPressureFvPatchScalarField>(pressure);
-        const bool velocityGiven = velocity.fixesValue() || Foam::isA<Foam::slipFvPatchVectorField>(velocity);
+        // inletOutlet and its like say that they fix a value, but give way where the gas leaves; what they say holds with a given pressure.
+        const bool mixed = Foam::isA<Foam::mixedFvPatchVectorField>(velocity)
+                           || Foam::isA<Foam::directionMixedFvPatchVectorField>(velocity);
+        // slip, partialSlip and fixedNormalSlip give the velocity through the patch.
+        const bool velocityGiven =
+            !mixed && (velocity.fixesValue() || Foam::isA<Foam::transformFvPatchField<Foam::vector>>(velocity));
+        const bool pressureGiven =
+            pressure.fixesValue() && !(mixed && Foam::isA<Foam::mixedFvPatchScalarField>(pressure));
         if (velocityGiven && !fluxPressure && !pressure.fixesValue()) {
             complaints.add(time + "/p: " + patch.name(),
                            "found " + pressure.type()
@@ -137,7 +209,7 @@ void checkPatches(const Foam::volVectorField& U, const Foam::volScalarField& p, 
                                + ": gas would pass as the pressure says and not with that velocity. Write type "
                                  "fixedFluxPressure; value uniform 0; or free the velocity (zeroGradient or "
                                  "pressureInletOutletVelocity in U).");
-        } else if (!velocityGiven && !pressure.fixesValue()) {
+        } else if (!velocityGiven && !pressureGiven) {
             complaints.add(
                 time + "/U: " + patch.name(),
                 "found " + velocity.type() + " for the velocity and " + pressure.type()
@@ -151,6 +223,9 @@ void checkPatches(const Foam::volVectorField& U, const Foam::volScalarField& p, 
 
 Foam::autoPtr<Foam::fvMesh> openGasMesh(const Foam::Time& runTime, Complaints& complaints)
 {
+    if (!cutForThisRun(runTime, complaints)) {
+        return nullptr;
+    }
     const std::string where = std::string("constant") / Foam::fileName(Foam::polyMesh::meshSubDir);
     bool complete = true;
     if (!onAllRanks(Foam::isFile(runTime.path() / where / "owner"))) {
@@ -176,25 +251,36 @@ Foam::autoPtr<Foam::fvMesh> openGasMesh(const Foam::Time& runTime, Complaints& c
         mesh.reset(new Foam::fvMesh(
             Foam::IOobject(Foam::polyMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)));
     } catch (const Foam::error& error) {
-        complaints.add(where, firstLine(error));
+        complaints.add(where + ", system/fvSchemes or system/fvSolution", firstLine(error));
     }
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
 }
 
 void checkGasFields(const gasProperties& gas, const Foam::fvMesh& mesh, Complaints& complaints)
 {
+    if (gas.pimple.referenceCellHere(mesh) >= mesh.nCells()) {
+        complaints.add("system/fvSolution: PIMPLE: pRefCell", "found " + std::to_string(gas.pimple.referenceCell)
+                                                                  + ", but the rank has "
+                                                                  + std::to_string(mesh.nCells()) + " cells, from 0.");
+    }
     // Conditions of the patches look for these by name.
     const Foam::volScalarField voidFraction(
         Foam::IOobject("voidFraction", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
         mesh, Foam::dimensionedScalar("one", Foam::dimless, 1));
-    const auto U = readField<Foam::volVectorField>("U", mesh, Foam::dimVelocity, "[0 1 -1 0 0 0 0]",
-                                                   "the velocity of the gas on every patch", complaints);
-    const auto p = readField<Foam::volScalarField>(
+    checkTimeSchemes(mesh, complaints);
+    auto U = readField<Foam::volVectorField>("U", mesh, Foam::dimVelocity, "[0 1 -1 0 0 0 0]",
+                                             "the velocity of the gas on every patch", complaints);
+    auto p = readField<Foam::volScalarField>(
         "p", mesh, Foam::dimPressure, "[1 -1 -2 0 0 0 0]",
         "the pressure of the gas [Pa], without its hydrostatic part, on every patch", complaints);
     if (U.valid() && p.valid()) {
+        const Foam::surfaceScalarField flux(
+            Foam::IOobject("phi", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
+            Foam::fvc::flux(U()));
         checkPatches(U(), p(), complaints);
-        checkTimeScheme(mesh, complaints);
+        checkConditions(U.ref(), complaints);
+        checkConditions(p.ref(), complaints);
+        checkGasNumerics(mesh, flux, complaints);
         checkTurbulence(gas, voidFraction, U(), complaints);
     }
 }
@@ -202,6 +288,7 @@ void checkGasFields(const gasProperties& gas, const Foam::fvMesh& mesh, Complain
 void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const DemPort& dem, Complaints& complaints)
 {
     checkGravity(gas, dem, complaints);
+    checkPeriodicity(mesh, dem, complaints);
     if (gas.maxDeltaT > 0 && gas.maxDeltaT < dem.timeStep() * (1 - 1e-9)) {
         complaints.add(std::string(gasFile) + ": maxDeltaT",
                        "the largest gas step " + shown(gas.maxDeltaT) + " s is below the DEM step "
@@ -219,7 +306,13 @@ void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const Dem
     const std::string size = "the largest particle, " + shown(largest) + " m, is " + shown(largest / cell, 3)
                              + " times the smallest cell, " + shown(cell) + " m, ";
     if (model == VoidFractionModel::smoothed) {
-        if (largest > cell && gas.exchange.smoothingLength < largest) {
+        const double share = smoothedShare(largest / cell, gas.exchange.smoothingLength / cell);
+        if (share > mostOfACell) {
+            complaints.add(std::string(gasFile) + ": smoothingLength",
+                           size + "and spread over " + shown(gas.exchange.smoothingLength) + " m it still fills "
+                               + shown(share, 3) + " of a cell by itself; allowed is " + shown(mostOfACell, 3)
+                               + ". Write a larger length, or use larger cells.");
+        } else if (largest > cell && gas.exchange.smoothingLength < largest) {
             complaints.add(std::string(gasFile) + ": smoothingLength", size + "and is spread over "
                                                                            + shown(gas.exchange.smoothingLength)
                                                                            + " m only. Write at least its diameter.");

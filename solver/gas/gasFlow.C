@@ -2,6 +2,7 @@
 #include "gas/gasFlow.H"
 
 #include "foamPoissonMesh/conversions.H"
+#include "settings/checkedDictionary.H"
 
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
@@ -25,13 +26,33 @@ IOobject givenIO(const word& name, const fvMesh& mesh)
     return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
 }
 
+/// Values across cuts and cyclic patches: decomposePar writes those of the own cells where it cuts through a cyclic patch.
+template <class Type> void updateCoupledPatches(GeometricField<Type, fvPatchField, volMesh>& field)
+{
+    for (auto& patch : field.boundaryFieldRef()) {
+        if (patch.coupled()) {
+            patch.initEvaluate(Pstream::defaultCommsType);
+        }
+    }
+    for (auto& patch : field.boundaryFieldRef()) {
+        if (patch.coupled()) {
+            patch.evaluate(Pstream::defaultCommsType);
+        }
+    }
+}
+
+/// Share of what passes the patches by which inflow and outflow may differ where no patch gives the pressure.
+constexpr double mostUnbalanced = 1e-4;
+
 const dimensionSet dimImpulsePerVolume = dimDensity * dimVelocity;
 
 }  // namespace
 
-gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings, bool turbulent)
+gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings, const pimpleControls& controls, bool turbulent)
     : mesh_(mesh),
       settings_(settings),
+      controls_(controls),
+      referenceCell_(controls.referenceCellHere(mesh)),
       rho_("density", dimDensity, settings.density),
       nu_("nu", dimViscosity, settings.viscosity / settings.density),
       alpha_(resultIO("voidFraction", mesh, IOobject::AUTO_WRITE), mesh, dimensionedScalar("one", dimless, 1),
@@ -53,6 +74,12 @@ gasFlow::gasFlow(const fvMesh& mesh, const GasSettings& settings, bool turbulent
           IOobject("phi", mesh.time().timeName(), mesh, IOobject::MUST_READ).typeHeaderOk<surfaceScalarField>(true))
 {
     mesh_.setFluxRequired(p_.name());
+    updateCoupledPatches(U_);
+    updateCoupledPatches(p_);
+    if (!continued_) {
+        phi_ = fvc::flux(U_);
+        alphaPhi_ = alphaf_ * phi_;
+    }
     if (turbulent) {
         turbulence_ = std::make_unique<gasTurbulence>(alpha_, U_, alphaPhi_, phi_, nu_.value());
     }
@@ -92,9 +119,6 @@ void gasFlow::setDrag(const GasSources& sources, double deltaT)
 
 void gasFlow::solve(const GasSources& sources)
 {
-    const dictionary controls = mesh_.solutionDict().subOrEmptyDict("PIMPLE");
-    const label outer = controls.lookupOrDefault<label>("nOuterCorrectors", 2);
-    const label corrections = controls.lookupOrDefault<label>("nCorrectors", 2);
     const double deltaT = mesh_.time().deltaTValue();
 
     // Not storeOldTimes(), which keeps nothing the first time: the void fraction of the step before would be that of this one.
@@ -103,7 +127,7 @@ void gasFlow::solve(const GasSources& sources)
     phi_.oldTime();
     setVoidFraction(sources.voidFraction);
     setDrag(sources, deltaT);
-    for (label iteration = 0; iteration < outer; ++iteration) {
+    for (long iteration = 0; iteration < controls_.outerCorrectors; ++iteration) {
         alphaPhi_ = alphaf_ * phi_;
         const volScalarField alphaNu("alphaNu", turbulence_ ? alpha_ * turbulence_->nuEff() : alpha_ * nu_);
         fvVectorMatrix UEqn(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_, "div(alphaPhi,U)")
@@ -111,17 +135,41 @@ void gasFlow::solve(const GasSources& sources)
                             - fvm::laplacian(alphaNu, U_, "laplacian(alphaNu,U)")
                             - fvc::div(alphaNu * dev2(T(fvc::grad(U_))), "div(alphaNu*dev2(T(grad(U))))"));
         const volScalarField A(UEqn.A());
-        const bool last = iteration == outer - 1;
-        for (label corrector = 0; corrector < corrections; ++corrector) {
-            correctPressure(A, UEqn.H(), last && corrector == corrections - 1);
+        const bool last = iteration == controls_.outerCorrectors - 1;
+        for (long corrector = 0; corrector < controls_.correctors; ++corrector) {
+            correctPressure(A, UEqn.H(), last && corrector == controls_.correctors - 1);
         }
         if (last) {
             collectResult(UEqn, deltaT);
         }
     }
+    if (p_.needReference()) {
+        checkBalance();
+    }
     if (turbulence_) {
         alphaPhi_ = alphaf_ * phi_;
         turbulence_->correct();
+    }
+}
+
+void gasFlow::checkBalance() const
+{
+    double in = 0, all = 0;
+    forAll(phi_.boundaryField(), patch)
+    {
+        if (!phi_.boundaryField()[patch].coupled()) {
+            const scalarField flow(alphaf_.boundaryField()[patch] * phi_.boundaryField()[patch]);
+            in -= sum(flow);
+            all += sum(mag(flow));
+        }
+    }
+    reduce(in, sumOp<scalar>());
+    reduce(all, sumOp<scalar>());
+    if (std::abs(in) > mostUnbalanced * all) {
+        throw std::runtime_error(
+            "no patch gives the pressure of the gas, but " + shown(in)
+            + " m3/s more enter than leave, for which there is no room. Give one patch, an outlet, a fixedValue "
+              "in p");
     }
 }
 
@@ -140,9 +188,10 @@ void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, 
         }
     }
     surfaceScalarField phiH("phiH", (fvc::flux(H) + memory + Sf) * inverse);
-    const surfaceScalarField share(settings_.pressure == PressureModel::modelA
-                                       ? surfaceScalarField(alphaf_ / rho_)
-                                       : surfaceScalarField(alphaf_ / alphaf_ / rho_));
+    surfaceScalarField share("share", alphaf_ / rho_);
+    if (settings_.pressure == PressureModel::modelB) {
+        share = 1 / rho_;
+    }
     const surfaceScalarField rAf("rAf", share * inverse);
 
     auto& pressure = p_.boundaryFieldRef();
@@ -153,21 +202,17 @@ void gasFlow::correctPressure(const volScalarField& A, const volVectorField& H, 
         if (isA<fixedFluxPressureFvPatchScalarField>(pressure[patch])) {
             refCast<fixedFluxPressureFvPatchScalarField>(pressure[patch])
                 .updateSnGrad((inflow - given) / (mesh_.magSf().boundaryField()[patch] * rAf.boundaryField()[patch]));
-        } else if (U_.boundaryField()[patch].fixesValue() && !pressure[patch].fixesValue()) {
-            phiH.boundaryFieldRef()[patch] = given;
         }
     }
 
-    const dictionary controls = mesh_.solutionDict().subOrEmptyDict("PIMPLE");
-    const label nonOrthogonal = controls.lookupOrDefault<label>("nNonOrthogonalCorrectors", 0);
-    for (label repeat = 0; repeat <= nonOrthogonal; ++repeat) {
+    for (long repeat = 0; repeat <= controls_.nonOrthogonalCorrectors; ++repeat) {
+        const bool lastRepeat = repeat == controls_.nonOrthogonalCorrectors;
         fvScalarMatrix pEqn(fvm::laplacian(alphaf_ * rAf, p_, "laplacian(rAf,p)")
                             == fvc::ddt(alpha_) + fvc::div(alphaf_ * phiH));
         // One cell of all ranks: where no patch gives the pressure, a second one would be a source of gas.
-        pEqn.setReference(Pstream::master() ? controls.lookupOrDefault<label>("pRefCell", 0) : -1,
-                          controls.lookupOrDefault<scalar>("pRefValue", 0));
-        pEqn.solve(mesh_.solver(p_.select(last && repeat == nonOrthogonal)));
-        if (repeat == nonOrthogonal) {
+        pEqn.setReference(referenceCell_, controls_.referenceValue);
+        pEqn.solve(mesh_.solver(p_.select(last && lastRepeat)));
+        if (lastRepeat) {
             const surfaceScalarField pressureFlow(pEqn.flux() / alphaf_);
             phi_ = phiH - pressureFlow;
             pressureFlux_ = pressureFlow / rAf;

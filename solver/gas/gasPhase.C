@@ -27,7 +27,9 @@ std::vector<Foam::label> listedPatches(const Foam::fvMesh& mesh)
 {
     std::vector<Foam::label> listed;
     for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
-        if (!Foam::isA<Foam::coupledPolyPatch>(patch) && !Foam::isA<Foam::emptyPolyPatch>(patch)) {
+        // One without faces, which a tool may have left over, has no mean pressure.
+        if (!Foam::isA<Foam::coupledPolyPatch>(patch) && !Foam::isA<Foam::emptyPolyPatch>(patch)
+            && Foam::returnReduce(patch.size(), Foam::sumOp<Foam::label>()) > 0) {
             listed.push_back(patch.index());
         }
     }
@@ -71,7 +73,7 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
       dem_(dem),
       times_(times),
       cells_(mesh),
-      flow_(mesh, properties.exchange, !properties.turbulence.empty()),
+      flow_(mesh, properties.exchange, properties.pimple, !properties.turbulence.empty()),
       profile_(profileOf(properties.exchange, flow_.velocity())),
       coupling_(dem, cells_, properties.exchange, communicator, profile_.get()),
       earlier_(readState(mesh.time()))

@@ -58,10 +58,16 @@ gasProperties readGasProperties(const Foam::fileName& casePath, Complaints& comp
     }
     exchange.saffmanLift = entries.oneOf("lift", {"none", "Saffman"}, "none") == "Saffman";
     gas.adjustTimeStep = entries.yesNo("adjustTimeStep", false);
+    for (const char* entry : {"maxCo", "maxDeltaT"}) {
+        if (!gas.adjustTimeStep && entries.has(entry)) {
+            entries.complain(entry, "only adjustTimeStep yes reads it. Write that, or remove it.");
+        }
+    }
     gas.maxCo = entries.positive("maxCo", gas.maxCo);
     gas.maxDeltaT = entries.has("maxDeltaT") ? entries.positive("maxDeltaT", 1) : 0;
     gas.largestParticle = entries.has("largestParticle") ? entries.positive("largestParticle", 1) : 0;
     entries.refuseUnknownEntries();
+    gas.pimple = pimpleControls::read(casePath, complaints);
     return gas;
 }
 

@@ -42,6 +42,10 @@ std::string gasTurbulence::modelOf(const Foam::fileName& casePath, Complaints& c
     if (kind == "RAS") {
         return entries.section("RAS").oneOf("RASModel", knownModels<Foam::RASModel<Model>>());
     }
+    if (kind == "laminar" && entries.has("laminar")) {
+        checkedDictionary laminar = entries.section("laminar");
+        laminar.oneOf(laminar.has("model") ? "model" : "laminarModel", {"Stokes"}, "Stokes");
+    }
     return kind == "LES" ? entries.section("LES").oneOf("LESModel", knownModels<Foam::LESModel<Model>>()) : "";
 }
 

@@ -69,6 +69,8 @@ void write(scene& s, const CoupledStep& step, particleWriter& particles, project
         s.dem->writeCheckpoint(checkpoint);
         if (projection) {
             projection->write(checkpoint);
+        } else {
+            projectiveCharging::forget(checkpoint);
         }
     }
 }
@@ -129,7 +131,8 @@ void run(scene& s, MPI_Comm communicator)
                                                      s.dem->charging() && !s.settings.fixedUniformCharge,
                                                      pressureDropOf(s, gas ? &*gas : nullptr), communicator);
     runReport report(runTime, times, s.settings.logInterval,
-                     static_cast<double>(s.settings.field.nearField.interval) * s.dem->timeStep());
+                     static_cast<double>(s.settings.field.nearField.interval) * s.dem->timeStep(),
+                     s.settings.electrostatics);
 
     Foam::Info << "\nStarting time loop\n" << Foam::endl;
     if (s.settings.fixedUniformCharge) {
@@ -177,16 +180,17 @@ void run(scene& s, MPI_Comm communicator)
                 gas->writeLine(runTime.value());
             }
         }
-        write(s, step, *particles, projection.get(), times);
-        if (gas) {
-            gas->writeState(demSteps);
-        }
         {
+            // Before the checkpoint, which puts the particles of the DEM in another order when some change their rank.
             const PhaseTimer timer(times, Phase::output);
             fieldError.update(step);
             if (statistics) {
                 statistics->update(step, projection ? projection->beyond() : 0);
             }
+        }
+        write(s, step, *particles, projection.get(), times);
+        if (gas) {
+            gas->writeState(demSteps);
         }
         if (gas && report.logged()) {
             Foam::Info << gas->describe().c_str() << Foam::endl;

@@ -45,14 +45,14 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
         }
     }
     if (timeOpens && s.settings.gas) {
-        if (!(s.mesh.valid() && s.mesh().name() == Foam::polyMesh::defaultRegion)) {
+        if (!s.hasGasMesh()) {
             s.ownGasMesh = openGasMesh(s.runTime(), complaints);
         }
-        if (s.ownGasMesh.valid() || s.mesh.valid()) {
+        if (s.hasGasMesh()) {
             checkGasFields(*s.settings.gas, s.gasMesh(), complaints);
         }
     }
-    if (timeOpens && (!s.settings.gas || s.ownGasMesh.valid() || s.mesh.valid())) {
+    if (timeOpens && (!s.settings.gas || s.hasGasMesh())) {
         checkPressureDrop(s.settings.statistics, s.settings.gas ? &s.gasMesh() : nullptr, complaints);
     }
     if (s.mesh.valid()) {
@@ -63,6 +63,12 @@ void openCase(const Foam::argList& args, scene& s, MPI_Comm communicator)
     if (s.poisson) {
         checkConditions(s.settings.field, *s.poisson, complaints);
         checkCutoff(s.settings.field, *s.poisson, complaints);
+    }
+    if (s.settings.electrostatics && !s.settings.needsMesh && s.settings.dielectrics.any()) {
+        complaints.add(
+            "constant/electrostaticProperties: insulatingWalls, zonePermittivity",
+            "fieldMethod " + s.settings.field.method
+                + " reads no mesh, so it knows of no such walls and zones. Use him, himCell or p3m, or remove them.");
     }
     if (s.settings.electrostatics && (s.poisson || !s.settings.needsMesh)) {
         checkWallTargets(s.settings, s.poisson.get(), complaints);

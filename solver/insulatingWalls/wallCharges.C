@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace him {
 
@@ -105,7 +106,8 @@ bool wallCharges::checkPlace(const DemWall& wall, int insulatingWall, const std:
         const bool plane = wall.image.shape == ImageWall::Shape::plane;
         double nearest = std::numeric_limits<double>::infinity();
         for (Index face = 0; face < static_cast<Index>(faces_.all().size()); ++face) {
-            if (insulatingWall != WallFaces::anyWall && faces_.all()[static_cast<std::size_t>(face)].wall != insulatingWall) {
+            if (insulatingWall != WallFaces::anyWall
+                && faces_.all()[static_cast<std::size_t>(face)].wall != insulatingWall) {
                 continue;
             }
             const Vector3 offset = faces_.centreOf(face) - wall.image.point;
@@ -132,11 +134,12 @@ bool wallCharges::checkPlace(const DemWall& wall, int insulatingWall, const std:
         }
     }
     if (!seen || worst > faces_.reach()) {
-        complaints.add("constant/couplingProperties: walls: " + wall.name,
-                       "the DEM wall lies off the insulating wall of the mesh"
-                           + (seen ? " by " + shown(worst) + " m" : std::string(" altogether: no face looks its way"))
-                           + ", more than wallDistance, " + shown(faces_.reach())
-                           + " m, so its charge would have no face to stay on. Move one of them, or raise wallDistance.");
+        complaints.add(
+            "constant/couplingProperties: walls: " + wall.name,
+            "the DEM wall lies off the insulating wall of the mesh"
+                + (seen ? " by " + shown(worst) + " m" : std::string(" altogether: no face looks its way"))
+                + ", more than wallDistance, " + shown(faces_.reach())
+                + " m, so its charge would have no face to stay on. Move one of them, or raise wallDistance.");
         return false;
     }
     return true;
@@ -208,11 +211,12 @@ void wallCharges::add(const std::vector<WallCharge>& charges)
         const WallFaces::Place place = faces_.find(charge.point, wallOf_[demWall]);
         if (place.face < 0) {
             if (lost.empty()) {
-                lost = "a contact at " + shownPoint(charge.point) + " with the insulating DEM wall " + demNames_[demWall]
-                       + " is at no face of the mesh that could keep its charge; the nearest is "
+                lost = "a contact at " + shownPoint(charge.point) + " with the insulating DEM wall "
+                       + demNames_[demWall] + " is at no face of the mesh that could keep its charge; the nearest is "
                        + shown(faces_.distanceTo(charge.point, wallOf_[demWall])) + " m away, wallDistance is "
                        + shown(faces_.reach())
-                       + " m. Let the mesh wall follow the DEM wall, or raise wallDistance in constant/couplingProperties.";
+                       + " m. Let the mesh wall follow the DEM wall, or raise wallDistance in "
+                         "constant/couplingProperties.";
             }
             continue;
         }
@@ -288,7 +292,8 @@ void wallCharges::write(const Foam::Time& runTime)
         file << "<DataArray type=\"" << type << "\" Name=\"" << title << "\" NumberOfComponents=\"" << components
              << "\" format=\"ascii\">\n";
     };
-    file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+    file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+            "byte_order=\"LittleEndian\">\n<PolyData>\n"
          << "<Piece NumberOfPoints=\"" << corners << "\" NumberOfPolys=\"" << faces_.all().size() << "\">\n<Points>\n";
     array("Float64", "position", 3);
     for (const WallFacePolygon& face : faces_.all()) {

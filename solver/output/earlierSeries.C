@@ -15,7 +15,8 @@ std::vector<earlierSample> readEarlierSeries(const Foam::fileName& folder, const
     for (const Foam::fileName& name : Foam::readDir(folder, Foam::fileName::DIRECTORY)) {
         std::istringstream text(name);
         double start = 0;
-        if (text >> start && text.eof() && start < startTime && Foam::isFile(folder / name / (region + ".dat"), false)) {
+        if (text >> start && text.eof() && start < startTime
+            && Foam::isFile(folder / name / (region + ".dat"), false)) {
             runs.emplace_back(start, folder / name / (region + ".dat"));
         }
     }
@@ -25,7 +26,7 @@ std::vector<earlierSample> readEarlierSeries(const Foam::fileName& folder, const
     for (std::size_t run = 0; run < runs.size(); ++run) {
         const double end = run + 1 < runs.size() ? runs[run + 1].first : startTime;
         std::ifstream file(runs[run].second);
-        std::size_t timeColumn = 0, valueColumn = 0;
+        std::size_t timeColumn = 0, valueColumn = 0, countColumn = 0;
         for (std::string line; std::getline(file, line);) {
             std::istringstream words(line);
             if (line.rfind("# Time", 0) == 0) {
@@ -34,6 +35,7 @@ std::vector<earlierSample> readEarlierSeries(const Foam::fileName& folder, const
                 for (std::size_t column = 0; words >> name; ++column) {
                     timeColumn = name == "chargingTime" ? column : timeColumn;
                     valueColumn = name == "chargePerMass" ? column : valueColumn;
+                    countColumn = name == "particles" ? column : countColumn;
                 }
                 continue;
             }
@@ -42,8 +44,8 @@ std::vector<earlierSample> readEarlierSeries(const Foam::fileName& folder, const
                 numbers.push_back(number);
             }
             // The line of a run's start stands in the run before it, too.
-            if (numbers.size() > std::max(timeColumn, valueColumn) && valueColumn > 0
-                && numbers[0] < end * (1 - 1e-9)) {
+            if (numbers.size() > std::max(timeColumn, valueColumn) && valueColumn > 0 && numbers[0] < end * (1 - 1e-9)
+                && numbers[countColumn] > 0) {
                 samples.push_back({numbers[timeColumn], numbers[valueColumn]});
             }
         }

@@ -37,12 +37,15 @@ std::string duration(double seconds)
     return seconds < 6000 ? formatted("%.0f min", seconds / 60) : formatted("%.1f h", seconds / 3600);
 }
 
-/// "DEM 61 %, near sum 3 %, ..." of `total` seconds
+/// "DEM 61 %, near sum 3 %, ..." of `total` seconds, without what the scene does not have
 std::string shares(const std::array<double, phases>& seconds, double total)
 {
     std::string text;
     for (int phase = 0; phase < phases; ++phase) {
-        text += (phase ? ", " : "") + std::string(PhaseTimes::name(static_cast<Phase>(phase)))
+        if (seconds[static_cast<std::size_t>(phase)] == 0) {
+            continue;
+        }
+        text += (text.empty() ? "" : ", ") + std::string(PhaseTimes::name(static_cast<Phase>(phase)))
                 + formatted(" %.0f %%", total > 0 ? 100 * seconds[static_cast<std::size_t>(phase)] / total : 0);
     }
     return text;
@@ -57,13 +60,32 @@ std::array<double, phases> secondsOf(const PhaseTimes& times)
     return seconds;
 }
 
+/// What contacts and limits did, by line(name, value).
+template <class Line> void addContacts(const Line& line, const ContactCounts& contacts)
+{
+    line("contacts with particles, walls",
+         formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));
+    line("largest relaxation number", formatted("%.3g", contacts.largestRelaxation));
+    if (contacts.strongFrozen > 0) {
+        line("WARNING: frozen contacts above x 0.5", formatted("%.0f", contacts.strongFrozen));
+    }
+    if (contacts.breakdowns > 0) {
+        line("charges limited by breakdown", formatted("%.0f", contacts.breakdowns));
+    }
+    if (contacts.limitedForces > 0) {
+        line("field forces limited", formatted("%.0f", contacts.limitedForces));
+    }
+}
+
 }  // namespace
 
-runReport::runReport(const Foam::Time& runTime, const PhaseTimes& times, long logInterval, double nearTime)
+runReport::runReport(const Foam::Time& runTime, const PhaseTimes& times, long logInterval, double nearTime,
+                     bool charges)
     : runTime_(runTime),
       times_(times),
       logInterval_(logInterval),
       nearTime_(nearTime),
+      charges_(charges),
       firstTime_(runTime.value()),
       start_(Clock::now())
 {
@@ -141,6 +163,20 @@ void runReport::endStep(const CoupledStep& step)
     if (!logged()) {
         return;
     }
+    if (charges_) {
+        printCharges(step);
+    }
+    const double end = runTime_.endTime().value();
+    const double done = end > firstTime_ ? 100 * (runTime_.value() - firstTime_) / (end - firstTime_) : 100;
+    Info << ("Progress: " + formatted("%.1f", done) + " %, " + duration(secondsLeft()) + " left; "
+             + shares(secondsOf(times_), secondsSinceStart()))
+                .c_str()
+         << endl;
+    runTime_.printExecutionTime(Info);
+}
+
+void runReport::printCharges(const CoupledStep& step)
+{
     const StepSummary& summary = step.summary();
     const auto number = [](double value) { return formatted("%.6g", value); };
     std::string line = "Charge: total " + number(summary.totalCharge) + " C, particle min "
@@ -151,12 +187,7 @@ void runReport::endStep(const CoupledStep& step)
         line += ", outside the mesh " + std::to_string(summary.excludedCount) + " particle(s) with "
                 + number(summary.excludedCharge) + " C";
     }
-    const double end = runTime_.endTime().value();
-    const double done = end > firstTime_ ? 100 * (runTime_.value() - firstTime_) / (end - firstTime_) : 100;
-    line += "\nProgress: " + formatted("%.1f", done) + " %, " + duration(secondsLeft()) + " left; "
-            + shares(secondsOf(times_), secondsSinceStart());
     Info << line.c_str() << endl;
-    runTime_.printExecutionTime(Info);
 }
 
 void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Comm communicator) const
@@ -170,7 +201,6 @@ void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Co
     }
     const double wall = secondsSinceStart();
     const double simulated = runTime_.value() - firstTime_;
-    const ContactCounts contacts = dem.contacts();
 
     std::ostringstream table;
     const auto line = [&table](const char* name, const std::string& value) {
@@ -182,25 +212,16 @@ void runReport::printSummary(const CoupledStep& step, const DemPort& dem, MPI_Co
     line("ranks", std::to_string(ranks));
     line("shares of time", shares(seconds, wall));
     line("particles", std::to_string(step.summary().particles));
-    line("near field held, largest omega T", formatted("%.2g", whole_.phase));
-    if (nearTime_ > 0) {
-        line("far field held, largest omega T", formatted("%.2g", far_.phase));
+    if (charges_) {
+        line("near field held, largest omega T", formatted("%.2g", whole_.phase));
+        if (nearTime_ > 0) {
+            line("far field held, largest omega T", formatted("%.2g", far_.phase));
+        }
+        line("total charge [C]", formatted("%.6g", step.summary().totalCharge));
+        addContacts(line, dem.contacts());
+        line("charge books, closure error [C]", formatted("%.3g", step.books().closureError()));
+        line("charge books, relative error", formatted("%.3g", step.books().relativeClosureError()));
     }
-    line("total charge [C]", formatted("%.6g", step.summary().totalCharge));
-    line("contacts with particles, walls",
-         formatted("%.0f, ", contacts.particleParticle) + formatted("%.0f", contacts.particleWall));
-    line("largest relaxation number", formatted("%.3g", contacts.largestRelaxation));
-    if (contacts.strongFrozen > 0) {
-        line("WARNING: frozen contacts above x 0.5", formatted("%.0f", contacts.strongFrozen));
-    }
-    if (contacts.breakdowns > 0) {
-        line("charges limited by breakdown", formatted("%.0f", contacts.breakdowns));
-    }
-    if (contacts.limitedForces > 0) {
-        line("field forces limited", formatted("%.0f", contacts.limitedForces));
-    }
-    line("charge books, closure error [C]", formatted("%.3g", step.books().closureError()));
-    line("charge books, relative error", formatted("%.3g", step.books().relativeClosureError()));
     Info << "\nSummary\n" << table.str().c_str() << endl;
 }
 

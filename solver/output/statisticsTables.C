@@ -32,12 +32,14 @@ double sumOf(const std::vector<double>& values)
 
 std::unique_ptr<statisticsTables> statisticsTables::create(const Foam::Time& runTime, const statisticsChoices& choices,
                                                            const std::vector<StatisticsRegion>& regions, DemPort& dem,
-                                                           bool charges, pressureDropSource pressureDrop, MPI_Comm communicator)
+                                                           bool charges, pressureDropSource pressureDrop,
+                                                           MPI_Comm communicator)
 {
     if (!choices.active) {
         return nullptr;
     }
-    std::unique_ptr<statisticsTables> made(new statisticsTables(runTime, choices, dem, charges, std::move(pressureDrop)));
+    std::unique_ptr<statisticsTables> made(
+        new statisticsTables(runTime, choices, dem, charges, std::move(pressureDrop)));
     for (const StatisticsRegion& region : regions) {
         made->tables_.push_back({RegionStatistics(region, made->wallNames_.size(), communicator), {}, {}});
     }
@@ -77,12 +79,14 @@ void statisticsTables::openSeries(table& one)
                << "# chargingTime: a t since charging began. saturation, tau, fitDeviation: fit of chargePerMass by "
                   "saturation (1 - exp(-chargingTime/tau)) (S6.1) so far; nan while the values show no bend.\n";
     if (region.layers > 0) {
-        one.series << "# wallSpeed: root mean square speed in the first wall layer. forceOnWall: electrostatic force of these towards "
+        one.series << "# wallSpeed: root mean square speed in the first wall layer. forceOnWall: electrostatic force "
+                      "of these towards "
                       "the wall. layer<n>: particles in the n-th layer of "
                    << region.layerThickness << " m.\n";
     }
     if (withWeight()) {
-        one.series << "# weight: of the particles. wallShare: part of it that contacts with walls carry; by_<wall>: each wall's part.\n";
+        one.series << "# weight: of the particles. wallShare: part of it that contacts with walls carry; by_<wall>: "
+                      "each wall's part.\n";
     }
     one.series << "# Time chargingTime particles mass charge chargePerMass meanCharge saturation tau fitDeviation";
     if (region.layers > 0) {
@@ -106,13 +110,13 @@ void statisticsTables::writeLine(table& one, const RegionSample& sample, double 
         return;
     }
     const RegionSums& sums = sample.sums;
-    if (charges_) {
+    if (charges_ && sums.particles > 0) {
         one.saturation.add(chargingTime, sums.chargePerMass());
     }
     const SaturationCurve& curve = one.saturation.curve();
     std::ofstream& out = one.series;
-    out << runTime_.value() << ' ' << chargingTime << ' ' << sums.particles << ' ' << sums.mass << ' ' << sums.charge << ' '
-        << sums.chargePerMass() << ' ' << sums.meanCharge();
+    out << runTime_.value() << ' ' << chargingTime << ' ' << sums.particles << ' ' << sums.mass << ' ' << sums.charge
+        << ' ' << sums.chargePerMass() << ' ' << sums.meanCharge();
     if (curve.known) {
         out << ' ' << curve.limit << ' ' << curve.timeScale << ' ' << curve.deviation;
     } else {
@@ -159,7 +163,8 @@ void statisticsTables::update(const CoupledStep& step, double chargingTime)
         dem_.wallForces(wallForces_);
         const double pressure = pressureDrop_ ? pressureDrop_() : 0;
         for (table& one : tables_) {
-            const RegionSample sample = one.statistics.sample(step.particles(), step.field().field, wallForces_, gravity_);
+            const RegionSample sample =
+                one.statistics.sample(step.particles(), step.field().field, wallForces_, gravity_);
             one.statistics.average(step.particles(), step.field().field, sample);
             one.pressureDrop += pressure;
             writeLine(one, sample, pressure, timeOfCharging(chargingTime));
@@ -186,7 +191,8 @@ void statisticsTables::writeAverages(table& one)
     }
     const auto open = [&](const char* name, std::ofstream& file) {
         file = openPostProcessing(runTime_, group, region.name + name, digits);
-        file << "# Region " << region.name << ", " << samples << " samples up to " << runTime_.value() << " s. SI units.\n";
+        file << "# Region " << region.name << ", " << samples << " samples up to " << runTime_.value()
+             << " s. SI units.\n";
     };
     {
         std::ofstream file;
@@ -194,8 +200,8 @@ void statisticsTables::writeAverages(table& one)
         file << "particles " << mean.sums.particles << "\nmass " << mean.sums.mass << "\ncharge " << mean.sums.charge
              << "\nchargePerMass " << mean.sums.chargePerMass() << "\nmeanCharge " << mean.sums.meanCharge() << '\n';
         if (region.layers > 0) {
-            file << "wallParticles " << mean.sums.wallParticles << "\nwallSpeed " << mean.sums.wallSpeed() << "\nforceOnWall "
-                 << mean.sums.forceOnWall << '\n';
+            file << "wallParticles " << mean.sums.wallParticles << "\nwallSpeed " << mean.sums.wallSpeed()
+                 << "\nforceOnWall " << mean.sums.forceOnWall << '\n';
         }
         for (std::size_t layer = 0; layer < mean.sums.layers.size(); ++layer) {
             file << "layer" << layer + 1 << ' ' << mean.sums.layers[layer] << '\n';
@@ -212,7 +218,8 @@ void statisticsTables::writeAverages(table& one)
         }
         const SaturationCurve& curve = one.saturation.curve();
         if (curve.known) {
-            file << "saturation " << curve.limit << "\ntau " << curve.timeScale << "\nfitDeviation " << curve.deviation << '\n';
+            file << "saturation " << curve.limit << "\ntau " << curve.timeScale << "\nfitDeviation " << curve.deviation
+                 << '\n';
         }
     }
     if (!counts.empty()) {
@@ -231,7 +238,8 @@ void statisticsTables::writeAverages(table& one)
     if (!profile.empty()) {
         std::ofstream file;
         open("Profile.dat", file);
-        file << "# distance from the nearest wall [m], number density [1/m3], mean charge [C], mean electrostatic force towards the "
+        file << "# distance from the nearest wall [m], number density [1/m3], mean charge [C], mean electrostatic "
+                "force towards the "
                 "wall [N]\n";
         for (const WallProfile::Row& row : profile) {
             file << row.distance << ' ' << row.numberDensity << ' ' << row.meanCharge << ' ' << row.meanForce << '\n';

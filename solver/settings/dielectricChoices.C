@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings/dielectricChoices.H"
 
+#include "settings/caseSettings.H"
+
 #include <sstream>
 
 namespace him {
@@ -33,9 +35,10 @@ insulatingWallChoice readWall(const std::string& name, checkedDictionary entries
     } else {
         wall.zones = twoWords(entries.written("betweenZones"));
         if (wall.zones.first.empty() || wall.zones.first == wall.zones.second) {
-            entries.complain("betweenZones", "found " + entries.written("betweenZones")
-                                                 + ", but two different cell zones are needed, as in (bed glass); one of "
-                                                   "them may be none.");
+            entries.complain("betweenZones",
+                             "found " + entries.written("betweenZones")
+                                 + ", but two different cell zones are needed, as in (bed glass); one of "
+                                   "them may be none.");
         }
     }
     entries.refuseUnknownEntries();
@@ -54,6 +57,10 @@ dielectricChoices readDielectricChoices(checkedDictionary& properties, double ga
     }
     checkedDictionary walls = properties.section("insulatingWalls", true);
     for (const Foam::word& name : walls.contents().toc()) {
+        if (name == noTransfer || name == groundedTarget || name == insulatingTarget) {
+            walls.complain(
+                name, "this word says something else of a wall in couplingProperties. Give the wall another name.");
+        }
         choices.walls.push_back(readWall(name, walls.section(name)));
     }
     return choices;

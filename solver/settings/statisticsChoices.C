@@ -18,6 +18,9 @@ const std::vector<std::string> sides{"xMin", "xMax", "yMin", "yMax", "zMin", "zM
 /// The charge distribution reaches so far beyond the equilibrium charge.
 constexpr double beyondEquilibrium = 1.2;
 
+/// Of a profile or a distribution.
+constexpr double mostBins = 1e6;
+
 std::optional<double> optionalLength(checkedDictionary& entries, const std::string& entry)
 {
     return entries.has(entry) ? std::optional<double>(entries.positive(entry, 1)) : std::nullopt;
@@ -61,13 +64,18 @@ void readCommon(checkedDictionary& entries, regionChoice& region)
     length("profileDepth", region.profileDepth);
     region.layers = entries.positiveInteger("layers", region.layers);
     region.chargeBins = entries.positiveInteger("chargeBins", region.chargeBins);
+    if (region.chargeBins > mostBins) {
+        entries.complain("chargeBins", "found " + std::to_string(region.chargeBins) + "; allowed are " + shown(mostBins)
+                                           + " at most.");
+    }
     if (entries.has("chargeRange")) {
         const std::vector<double> range = entries.numbers("chargeRange");
         if (range.size() == 2 && range[0] < range[1]) {
             region.chargeRange = {range[0], range[1]};
         } else {
-            entries.complain("chargeRange", "found `" + entries.written("chargeRange")
-                                                + "`, but two charges [C], the lower one first, are expected, like (-1e-12 1e-12).");
+            entries.complain("chargeRange",
+                             "found `" + entries.written("chargeRange")
+                                 + "`, but two charges [C], the lower one first, are expected, like (-1e-12 1e-12).");
         }
     }
 }
@@ -82,15 +90,17 @@ regionChoice readRegion(const std::string& name, checkedDictionary entries, cons
     readCommon(entries, region);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (region.lower[axis] && region.upper[axis] && !(*region.lower[axis] < *region.upper[axis])) {
-            entries.complain("upper", "along " + std::string(1, "xyz"[axis]) + " the region ends at " + shown(*region.upper[axis])
-                                          + " m, not above its lower corner, " + shown(*region.lower[axis]) + " m.");
+            entries.complain("upper", "along " + std::string(1, "xyz"[axis]) + " the region ends at "
+                                          + shown(*region.upper[axis]) + " m, not above its lower corner, "
+                                          + shown(*region.lower[axis]) + " m.");
         }
     }
     const bool walled = std::any_of(region.walls.begin(), region.walls.end(), [](bool wall) { return wall; });
     for (const char* entry : {"layers", "profileWidth", "profileDepth"}) {
         if (!walled && entries.has(entry)) {
-            entries.complain(entry, "is about the distance from walls, but no side of the region is named as one. Write walls (xMin "
-                                    "xMax), for example.");
+            entries.complain(
+                entry, "is about the distance from walls, but no side of the region is named as one. Write walls (xMin "
+                       "xMax), for example.");
         }
     }
     entries.refuseUnknownEntries();
@@ -149,8 +159,8 @@ statisticsChoices readStatisticsChoices(const Foam::fileName& casePath, Complain
     return choices;
 }
 
-std::vector<StatisticsRegion> completeRegions(const statisticsChoices& choices, const DemPort& dem, MPI_Comm communicator,
-                                              Complaints& complaints)
+std::vector<StatisticsRegion> completeRegions(const statisticsChoices& choices, const DemPort& dem,
+                                              MPI_Comm communicator, Complaints& complaints)
 {
     std::vector<StatisticsRegion> regions;
     if (!choices.active) {
@@ -176,12 +186,15 @@ std::vector<StatisticsRegion> completeRegions(const statisticsChoices& choices, 
             region.place.box.upper[axis] = choice.upper[n].value_or(demBox.upper[axis]);
         }
         if (region.place.box.empty() || !region.place.box.overlaps(demBox)) {
-            complaints.add(where, "the region lies outside the DEM box, which is where particles are. Check its corners (metres).");
+            complaints.add(
+                where,
+                "the region lies outside the DEM box, which is where particles are. Check its corners (metres).");
             continue;
         }
         if (!choice.layerThickness && scale.particles == 0) {
-            complaints.add(where + ": layerThickness", "the entry is missing, and its default, the mean diameter, is that of no "
-                                                       "particle: the scene starts without any.");
+            complaints.add(where + ": layerThickness",
+                           "the entry is missing, and its default, the mean diameter, is that of no "
+                           "particle: the scene starts without any.");
             continue;
         }
         region.layerThickness = choice.layerThickness.value_or(scale.meanDiameter);
@@ -189,7 +202,14 @@ std::vector<StatisticsRegion> completeRegions(const statisticsChoices& choices, 
             const double depth = choice.profileDepth.value_or(depthOf(region.place));
             region.layers = static_cast<int>(choice.layers);
             region.profileWidth = choice.profileWidth.value_or(0.5 * region.layerThickness);
-            region.profileBins = std::max(1, static_cast<int>(std::ceil(depth / region.profileWidth * (1 - 1e-9))));
+            const double bins = std::ceil(depth / region.profileWidth * (1 - 1e-9));
+            if (bins > mostBins) {
+                complaints.add(where + ": profileWidth", "found " + shown(region.profileWidth) + " m, which makes "
+                                                             + shown(bins) + " bins; allowed are " + shown(mostBins)
+                                                             + ". Write a larger width.");
+                continue;
+            }
+            region.profileBins = std::max(1, static_cast<int>(bins));
         }
         const double reach = beyondEquilibrium * (equilibrium > 0 ? equilibrium : scale.largestCharge);
         if (!choice.chargeRange && reach == 0) {

@@ -27,8 +27,8 @@ Scalars relaxed(const Scalars& charge, double x)
 ChargeProjection fit(const Scalars& before, const Scalars& after, const std::vector<double>& equilibrium = {},
                      MPI_Comm communicator = MPI_COMM_SELF)
 {
-    return ChargeProjection(before, after, std::vector<int>(static_cast<std::size_t>(before.size()), 0), {equilibrium},
-                            communicator);
+    return ChargeProjection(before, after, Scalars::Ones(before.size()),
+                            std::vector<int>(static_cast<std::size_t>(before.size()), 0), {equilibrium}, communicator);
 }
 
 TEST(ChargeProjection, relaxesTowardsTheChargeAtWhichNothingMovesAndNeverPassesIt)
@@ -48,6 +48,22 @@ TEST(ChargeProjection, relaxesTowardsTheChargeAtWhichNothingMovesAndNeverPassesI
             EXPECT_LE(std::abs(projected[n] - 1), std::abs(after[n] - 1)) << bursts;
         }
     }
+}
+
+TEST(ChargeProjection, leapsFromLongBurstsAsFarAsManyOfThemWouldGo)
+{
+    const Scalars before = charges({0, 0.2, 0.5, 1.4});
+    for (const double x : {0.01, 0.3, 2.0}) {
+        const Scalars after = relaxed(before, x);
+        const Scalars projected = fit(before, after).leap(9, 0, true).charge;
+        const Scalars exact = relaxed(after, 9 * x);
+        for (Index n = 0; n < after.size(); ++n) {
+            EXPECT_NEAR((projected[n] - 1) / (exact[n] - 1), 1, 1e-6) << x;
+        }
+    }
+    // A burst that went past q* has left nothing of the way.
+    const Scalars past = 1 - 0.2 * (before - 1);
+    EXPECT_NEAR((fit(before, past).leap(3, 0, true).charge - 1).abs().maxCoeff(), 0, 1e-12);
 }
 
 TEST(ChargeProjection, goesToTheKnownEquilibriumWhereTheBurstDoesNotShowOne)
@@ -88,6 +104,25 @@ TEST(ChargeProjection, restsCarryNothingBeyondTheEquilibriumCharge)
     EXPECT_GT(leap.stopped, 0);
 }
 
+TEST(ChargeProjection, takesEveryParticleToTheEquilibriumOfItsOwnSizeAndNotBeyond)
+{
+    // Equilibrium charges s = 0.36 and 1.44, the mean's being 1; the larger ones are behind.
+    const Scalars share = charges({0.36, 1.44, 0.36, 1.44, 0.36, 1.44});
+    const Scalars before = share * charges({0.5, 0.1, 0.45, 0.15, 0.55, 0.05});
+    const Scalars after = share * relaxed(before / share, 0.05);
+    const ChargeProjection projection(before, after, share, std::vector<int>(6, 0), {{1.0}}, MPI_COMM_SELF);
+    EXPECT_NEAR(projection.totalGain(), (after - before).sum(), 1e-14);
+    for (const long bursts : {9L, 1000L}) {
+        const auto leap = projection.leap(bursts, 0.5, true);
+        const Scalars exact = share * relaxed(after / share, 0.05 * static_cast<double>(bursts));
+        EXPECT_NEAR((leap.charge / exact - 1).abs().maxCoeff(), 0, 1e-9);
+        EXPECT_LE((leap.charge / share).maxCoeff(), 1 + 1e-12);
+        EXPECT_NEAR(leap.gained, (leap.charge - after).sum(), 1e-13);
+    }
+    // Without walls the sum of the charges stays, not that of the charges over the shares.
+    EXPECT_NEAR(projection.leap(9, 0.5, false).charge.sum(), after.sum(), 1e-13);
+}
+
 TEST(ChargeProjection, holdsWhatNothingIsKnownOf)
 {
     const Scalars before = charges({0, 1, 2});
@@ -115,11 +150,10 @@ TEST(ChargeProjection, fitsEveryGroupByItselfOnAnyNumberOfRanks)
         after.push_back(n % 2 ? -3 + (q + 3) * std::exp(-0.01) : 1 + (q - 1) * std::exp(-0.02));
     }
     const auto rows = static_cast<Index>(before.size());
-    const ChargeProjection projection(Eigen::Map<Scalars>(before.data(), rows), Eigen::Map<Scalars>(after.data(), rows), group,
-                                      {{}, {}}, MPI_COMM_WORLD);
+    const ChargeProjection projection(Eigen::Map<Scalars>(before.data(), rows), Eigen::Map<Scalars>(after.data(), rows),
+                                      Scalars::Ones(rows), group, {{}, {}}, MPI_COMM_WORLD);
     EXPECT_NEAR(projection.groups()[0].limit(), 1, 1e-9);
     EXPECT_NEAR(projection.groups()[1].limit(), -3, 1e-9);
-    EXPECT_EQ(projection.groups()[1].particles, 20);
     const auto leap = projection.leap(50, 0, true);
     double mine = (leap.charge - Eigen::Map<Scalars>(after.data(), rows)).sum(), all = 0;
     MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
@@ -131,7 +165,7 @@ TEST(ChargeProjection, withoutWallsTheSumStays)
     // Two kinds that exchange charge with each other only, the first gains what the second loses.
     const Scalars before = charges({0.0, 0.1, 0.3, -0.1, 0.0, -0.2});
     const Scalars after = charges({0.10, 0.19, 0.34, -0.18, -0.09, -0.26});
-    const ChargeProjection projection(before, after, {0, 0, 0, 1, 1, 1}, {{}, {}}, MPI_COMM_SELF);
+    const ChargeProjection projection(before, after, Scalars::Ones(6), {0, 0, 0, 1, 1, 1}, {{}, {}}, MPI_COMM_SELF);
     ASSERT_NEAR(projection.totalGain(), 0, 1e-16);
     ASSERT_TRUE(projection.groups()[0].fromBurst);
     const auto leap = projection.leap(20, 0.3, false);
@@ -159,10 +193,10 @@ TEST(RestFactor, isARandomWalkWithoutAndTheOwnGainWithFullCorrelation)
     double sum = 0;
     for (int i = 0; i <= n; ++i) {
         for (int j = 0; j <= n; ++j) {
-            sum += std::exp(slope * (2 * n - i - j)) * std::pow(rho, std::abs(i - j));
+            sum += std::pow(1 + slope, 2 * n - i - j) * std::pow(rho, std::abs(i - j));
         }
     }
-    EXPECT_NEAR(restFactor(n, rho, slope), std::sqrt(sum) - std::exp(slope * n), 1e-13);
+    EXPECT_NEAR(restFactor(n, rho, slope), std::sqrt(sum) - std::pow(1 + slope, n), 1e-13);
 }
 
 TEST(ChargeProjection, errorIsTheShareByWhichTheGainWasMisjudged)
@@ -246,9 +280,10 @@ TEST(ChargeProjection, keepsMeanAndSpreadOfABedWhereAccelerationWidensIt)
         Bed plain(1, mixing), accelerated(1, mixing);
         plain.steps(4000, x);
         accelerated.steps(400, 10 * x);
-        const Moments exact = momentsOf(plain.charge), fast = momentsOf(accelerated.charge), ours = projected(mixing, x);
-        std::printf("mixing %g, mean and spread: plain %.4f %.4f, accelerated %.4f %.4f, projected %.4f %.4f\n", mixing, exact.mean,
-                    exact.spread, fast.mean, fast.spread, ours.mean, ours.spread);
+        const Moments exact = momentsOf(plain.charge), fast = momentsOf(accelerated.charge),
+                      ours = projected(mixing, x);
+        std::printf("mixing %g, mean and spread: plain %.4f %.4f, accelerated %.4f %.4f, projected %.4f %.4f\n", mixing,
+                    exact.mean, exact.spread, fast.mean, fast.spread, ours.mean, ours.spread);
         EXPECT_NEAR(ours.mean / exact.mean, 1, 0.05);
         EXPECT_NEAR(ours.spread / exact.spread, 1, 0.15);
         EXPECT_GT(fast.spread, 2 * exact.spread);

@@ -5,7 +5,6 @@ import math
 import os
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -19,14 +18,14 @@ class CalibrateGamma(unittest.TestCase):
     def run_with(self, table, *targets):
         (self.folder / "runs.dat").write_text(table)
         program = os.path.join(os.environ["HIMFOAM_BIN"], "calibrateGamma")
-        options = [word for target in targets for word in ("-target", str(target))]
-        return subprocess.run([sys.executable, program, "-runs", str(self.folder / "runs.dat"), *options], stdout=subprocess.PIPE,
+        words = str(targets[0]) if len(targets) == 1 else "(%s)" % " ".join(map(str, targets))
+        return subprocess.run([program, "-runs", str(self.folder / "runs.dat"), "-target", words], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
 
     def gammas(self, table, *targets):
         done = self.run_with(table, *targets)
         self.assertEqual(done.returncode, 0, done.stdout)
-        return [float(line.split()[1]) for line in done.stdout.splitlines() if not line.startswith("#")], done.stdout
+        return [float(line.split()[1]) for line in done.stdout.splitlines() if line and not line.startswith("#")], done.stdout
 
     def charging_run(self, name, limit, tau, end=3.0, begin=0.0, first=0.0, last=math.inf):
         """A run that charges from `begin` on, over `end` seconds; the file holds the times from `first` to `last`."""
@@ -80,13 +79,22 @@ class CalibrateGamma(unittest.TestCase):
         (self.folder / "empty.dat").write_text("# Time total\n")
         (self.folder / "other.dat").write_text("1 2\n")
         text = self.run_with("4e5\n4e5 empty.dat 1e-3\n4e5 other.dat 1e-3\n", 1e-5).stdout
-        for part in ("line 1: found one word", "line 2: empty.dat has no lines", "line 3: other.dat has no columns Time and total"):
+        for part in ("runs.dat: line 1: found one word", "line 2: empty.dat has no lines", "line 3: other.dat has no columns Time and total"):
             self.assertIn(part, text)
         done = self.run_with("4e5 short.dat 1e-3\n4e5 1e-5 0 0 0\n5e5 none.dat 1e-3\n6e5 short.dat -1\n", 1e-5)
         self.assertNotEqual(done.returncode, 0)
         for part in ("line 1: ", "line 2: a mass of 0 kg is not positive", "line 3: ", "line 4: a mass of -1 kg is not positive"):
             self.assertIn(part, done.stdout)
-        self.assertIn("at least two runs", self.run_with("4e5 1e-5\n", 1e-5).stdout)
+        self.assertIn("at least two runs with different Gamma", self.run_with("4e5 1e-5\n4e5 2e-5\n", 1e-5).stdout)
+        done = self.run_with("4e5 1e-5\n8e5 5e-6\n6e5 2e-5\n", "nan", 1e-5)
+        self.assertIn("-target: found nan", done.stdout)
+        self.assertIn("does not rise from Gamma = 6e+05 V/m (2e-05 C/kg) to 8e+05 V/m (5e-06 C/kg)", done.stdout)
+
+    def test_runs_of_one_gamma_count_as_one_also_beyond_the_runs(self):
+        found, text = self.gammas("4e5 0.9e-5\n4e5 1.1e-5\n8e5 3.8e-5\n8e5 4.2e-5\n", 2.5e-5, 5.5e-5)
+        self.assertAlmostEqual(found[0] / 6e5, 1, delta=1e-7)
+        self.assertAlmostEqual(found[1] / 1e6, 1, delta=1e-7)
+        self.assertEqual(text.count("extrapolated beyond the runs"), 1)
 
 
 if __name__ == "__main__":

@@ -47,6 +47,19 @@ class CutCells(unittest.TestCase):
             inside = [layer[10 * j + i] for j in range(2, 8) for i in range(2, 8)]
             self.assertEqual(set(inside), {int(number >= 2)})
 
+    def test_layers_around_a_zone_are_cut_with_it(self):
+        self.case.write("system/topoSetDict", BOX)
+        self.case.tool("topoSet")
+        for layers in range(3):
+            result = self.case.run("-axis", "z", "-at", "(0.02)", "-zone", "middle", "-layers", str(layers), program="cutCells")
+            self.assertEqual(result.code, 0, result.text[-1500:])
+            self.assertIn("Cells of each part: 500 500", result.text)   # those left over make up for it
+            for number, layer in enumerate(self.parts()):
+                beside = [layer[10 * j + i] for j in range(10) for i in range(10)
+                          if max(2 - i, i - 7, 0) + max(2 - j, j - 7, 0) <= layers]
+                self.assertEqual(len(beside), (36, 60, 88)[layers])
+                self.assertEqual(set(beside), {int(number >= 2)})
+
     def test_slabs_with_as_many_particles_run_as_one_rank_does(self):
         serial = self.case.run()
         self.assertEqual(serial.code, 0, serial.text[-1500:])
@@ -82,6 +95,7 @@ class CutCells(unittest.TestCase):
         for options, complaint in ((["-at", "(0.07 0.02)"], "expected one or more ascending places [m]"),
                                    (["-parts", "1"], "expected a number of at least 2"),
                                    (["-parts", "2"], "has 0 particles, too few for 2 parts. Give the places of the cuts with -at."),
+                                   (["-at", "(0.02)", "-layers", "1"], "-layers: expected a whole number of layers around the cells of -zone"),
                                    (["-at", "(0.02)", "-zone", "middle"], "the mesh has no cell zone middle, nor any other.")):
             result = self.case.run("-axis", "z", *options, program="cutCells")
             self.assertEqual(result.code, 1)

@@ -94,8 +94,6 @@ def fourier_field_y(x, y, side, width, density, sigma):
             def antiderivative(source):
                 below, above = min(y, source), side - max(y, source)
                 near = math.exp(k * (below + above - side)) / (2 * (1 - math.exp(-2 * k * side)) * k)
-                if y <= source:
-                    return -near * (1 + math.exp(-2 * k * below)) * (1 + math.exp(-2 * k * above))
                 return -near * (1 + math.exp(-2 * k * below)) * (1 + math.exp(-2 * k * above))
             return antiderivative(b) - antiderivative(a)
 

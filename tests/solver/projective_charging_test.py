@@ -59,7 +59,7 @@ class ProjectiveCharging(CaseTests):
         names = lines[len([line for line in lines if line.startswith("#")]) - 1][1:].replace("...", "").split()
         return [dict(zip(names, map(float, line.split()))) for line in lines if not line.startswith("#")]
 
-    def test_mean_and_spread_are_those_of_plain_charging_where_acceleration_widens_them(self):
+    def test_the_mean_is_that_of_plain_charging_and_the_spread_below_that_of_acceleration(self):
         plain = dumped(gas(self.folder + "/plain", 2.0), 200000)
         fast = dumped(gas(self.folder + "/fast", 0.2, acceleration=10), 20000)
         ours = dumped(gas(self.folder + "/ours", 0.2, burst=20, leap=9), 20000)
@@ -137,6 +137,28 @@ class ProjectiveCharging(CaseTests):
         self.assertEqual(more, straight[-4:])
         last = [(case.path / name).read_text().splitlines()[-16:] for name in ("straight.dump", "continued.dump")]
         self.assertEqual(last[0], last[1])
+
+    def test_no_earlier_run_lends_its_expectations(self):
+        case = gas(self.folder, 0.04, burst=10, leap=5, number=16, write=20)
+        script = case.path / "DEM/in.cube"
+        script.write_text(continuing(script.read_text()))
+        self.ran(case)
+        # Bursts of another length: the charging time goes on, what the earlier ones made expect does not.
+        case.replace("system/controlDict", "startTime 0;", "startTime 0.04;")
+        case.replace("system/controlDict", "endTime 0.04;", "endTime 0.08;")
+        case.replace(COUPLING, "{ burst 10; leap 5; }", "{ burst 20; leap 5; }")
+        self.ran(case)
+        first = self.leaps(case, "0.04")[0]
+        self.assertAlmostEqual(first["chargingTime"], 0.06 + 0.2 + 0.1, delta=1e-9)
+        self.assertEqual(first["error"], 0)
+        # A checkpoint that a run without leaps has written in its place.
+        self.assertTrue((case.path / "DEM/restart/0.04.projection").exists())
+        case.replace("system/controlDict", "startTime 0.04;", "startTime 0;")
+        case.replace("system/controlDict", "endTime 0.08;", "endTime 0.04;")
+        text = (case.path / COUPLING).read_text()
+        case.replace(COUPLING, "projectiveCharging { burst 20; leap 5; }", "")
+        self.ran(case)
+        self.assertFalse((case.path / "DEM/restart/0.04.projection").exists())
 
     def test_statistics_fit_the_charging_time(self):
         case = gas(self.folder, 0.04, burst=10, leap=5)

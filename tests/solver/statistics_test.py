@@ -159,6 +159,23 @@ class Statistics(CaseTests):
         self.assertEqual(last["by_lid"], 0)
         self.assertAlmostEqual(averages(case, "cube", "0.06")["wallShare"], 1, delta=1e-3)
 
+    def test_a_checkpoint_while_a_particle_changes_its_rank_leaves_the_wall_forces_with_their_particles(self):
+        # One flies over to the other rank, under the distance at which LIGGGHTS sorts anew; the others hit the lid.
+        scene = [((0.0499, 0.05, 0.05), (0.2, 0., 0.), 0.)] + [((0.01 + 0.01 * n, 0.05, 0.09795 - 2e-6 * n), (0., 0., 0.1), 0.) for n in range(8)]
+        shares = {}
+        for ranks in (1, 2):
+            case = statistics_case("%s/%d" % (self.folder, ranks), "regions { left { lower (0 0 0); upper (0.045 0.1 0.1); } }", particles=scene)
+            case.replace("DEM/in.cube", "fix move all nve/sphere", GRAVITY)
+            case.replace("DEM/in.cube", "gamma -7.67e5 kappa 20.0", "gamma 0 kappa 20.0")
+            case.replace("DEM/in.cube", "processors * * *", "processors * 1 1")
+            case.replace("system/controlDict", "writeInterval 2;", "writeInterval 1;")
+            self.ran(case, ranks)
+            shares[ranks] = [row["by_lid"] for row in series(case, "left")]
+        self.assertLess(shares[1][1], -1)
+        self.assertEqual(len(shares[2]), len(shares[1]))
+        for one, two in zip(shares[1], shares[2]):
+            self.assertAlmostEqual(two, one, delta=1e-11 * max(abs(one), 1))
+
     def test_walls_that_store_their_force_by_themselves_give_the_same(self):
         shares = []
         for words in ("", " store_force yes"):

@@ -185,7 +185,7 @@ int main(int argc, char* argv[])
             permittivityOf(zone, settings) * fluxOutOf(zone, matter, poisson->electricPotential()));
     }
     poisson->electricPotential().write();
-    poisson->electricFieldOfCells().write();
+    mesh().lookupObject<Foam::volVectorField>("electricField").write();
     matter.write();
     return 0;
 }

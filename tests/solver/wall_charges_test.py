@@ -101,6 +101,37 @@ class WallCharges(CaseTests):
                 self.assertAlmostEqual(charge, faces[centre], delta=1e-9 * max(map(abs, faces.values())))
             self.assertAlmostEqual(straight.charge_table("0.002")[1][-1]["wallFaceError"], 0, delta=1e-12 * 1e-10)
 
+    def test_a_run_that_has_lost_the_charge_of_the_faces_does_not_go_on(self):
+        case = bed(self.folder)
+        case.replace("system/controlDict", "endTime 2e-3;", "endTime 4e-3;")
+        script = case.path / "DEM/in.cube"
+        script.write_text(continuing(script.read_text()))
+        self.last_row(case)
+        case.replace("system/controlDict", "startTime 0;", "startTime 0.002;")
+        (case.path / "0.002/wallSurfaceCharge").unlink()
+        result = case.run()
+        self.assertNotEqual(result.code, 0)
+        self.assertIn("the start time has no wallSurfaceCharge", " ".join(result.text.split()))
+
+    def test_what_a_wall_was_given_stays_with_its_name(self):
+        case = bed(self.folder)
+        case.replace("system/controlDict", "endTime 2e-3;", "endTime 4e-3;")
+        script = case.path / "DEM/in.cube"
+        text = continuing(script.read_text())
+        script.write_text(text)
+        self.last_row(case)
+        given = [row for row in case.charge_table()[1] if abs(row["Time"] - 0.002) < 1e-9][0]["floor"]
+        self.assertNotEqual(given, 0)
+        floor, lid = (line for line in text.splitlines() if line.startswith(("fix floor", "fix lid")))
+        script.write_text(text.replace(floor, "@").replace(lid, floor).replace("@", lid))
+        case.replace("system/controlDict", "startTime 0;", "startTime 0.002;")
+        again = case.run()
+        self.assertEqual(again.code, 0, again.text[-2000:])
+        names, rows = case.charge_table("0.002")
+        self.assertLess(names.index("lid"), names.index("floor"))
+        self.assertAlmostEqual(rows[0]["floor"] / given, 1, delta=1e-10)
+        self.assertEqual(rows[0]["lid"], 0)
+
     def test_a_dem_wall_off_the_faces_is_refused(self):
         result = bed(self.folder, height=INTERFACE + 0.004).run("-dry-run")
         self.assertEqual(result.code, 1)

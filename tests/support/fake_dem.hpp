@@ -19,6 +19,7 @@ public:
     Box box() const override { return box_; }
     std::array<bool, 3> periodic() const override { return periodic_; }
     const std::vector<DemWall>& walls() const override { return wallList; }
+    int particleTypes() const override { return 2; }
     bool charging() const override { return false; }
     std::string chargingDescription() const override { return "no charging\n"; }
     Complaints check() const override { return {}; }
