@@ -67,8 +67,9 @@ void run(const Foam::argList& args, MPI_Comm communicator)
         complaints.add("-runs", "expected a file with one line per run, see solver/doc/calibrate_gamma.md.");
     } else {
         const Foam::fileName file = args.get<Foam::fileName>("runs");
+        const std::size_t before = complaints.lines().size();
         const std::vector<CalibrationRun> runs = readCalibrationRuns(file, complaints);
-        if (complaints.none()) {
+        if (complaints.lines().size() == before) {
             try {
                 calibration.emplace(runs);
             } catch (const std::invalid_argument& impossible) {

@@ -19,8 +19,9 @@ class CalibrateGamma(unittest.TestCase):
         (self.folder / "runs.dat").write_text(table)
         program = os.path.join(os.environ["HIMFOAM_BIN"], "calibrateGamma")
         words = str(targets[0]) if len(targets) == 1 else "(%s)" % " ".join(map(str, targets))
+        environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}
         return subprocess.run([program, "-runs", str(self.folder / "runs.dat"), "-target", words], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
+                              stderr=subprocess.STDOUT, text=True, env=environment)
 
     def gammas(self, table, *targets):
         done = self.run_with(table, *targets)
