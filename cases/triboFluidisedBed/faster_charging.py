@@ -79,7 +79,7 @@ def ways(runs):
             continue
         charging_time = plain.charging_time_at(written(plain)[-1][0])
         others = []
-        for run in sorted((run for run in runs if run.strength == plain.strength and run is not plain and not run.uniform),
+        for run in sorted((run for run in runs if run.strength == plain.strength and run is not plain and not run.uniform and run.hangs_since() is None),
                           key=lambda run: (run.leap, run.acceleration)):
             state = state_at(run, charging_time)
             if state is None:

@@ -11,9 +11,9 @@ MUCH_MORE = 1.5         # uniform charge loses this many times the pressure drop
 
 
 def same_start(runs):
-    """Dynamic runs without leaps by e/g, in order of a."""
+    """Dynamic runs without leaps by e/g, in order of a, of those that are beds to the end."""
     groups = {}
-    for run in sorted((run for run in runs if run.acceleration and not run.uniform and not run.leap), key=lambda run: run.acceleration):
+    for run in sorted((run for run in runs if run.acceleration and not run.uniform and not run.leap and run.hangs_since() is None), key=lambda run: run.acceleration):
         groups.setdefault(run.strength, []).append(run)
     return groups
 
@@ -60,7 +60,7 @@ def drop_at(run, time):
 
 def findings(runs, base):
     """Sentences and whether each is so (None: nothing was expected)."""
-    found = []
+    found = [(f"{run.name}: a plug hangs at the lid from {run.hangs_since():.2f} s on: not judged", None) for run in runs if run.hangs_since() is not None]
     for strength, group in same_start(runs).items():
         for run in group:
             if run.bed["chargingTime"][-1] < 4*EARLY - 0.1:

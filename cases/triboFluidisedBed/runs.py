@@ -8,6 +8,7 @@ import re
 import numpy as np
 
 DIAMETER = 277e-6   # [m]
+LID = 0.05          # [1] of the weight: a plug that hangs at the lid presses with more
 WINDOW = 5.0        # [s] of charging time over which profiles are averaged, for every acceleration the same; a = 20 writes one in that time
 
 
@@ -39,6 +40,14 @@ class Run:
 
     def late(self, name, seconds=0.5):
         return np.mean(self.bed[name][self.time > self.time[-1] - seconds])
+
+    def hangs_since(self):
+        """Time [s] from which a plug hangs at the lid to the end, held by the gas; None where none does. It is no bed any more then."""
+        lid = self.bed["by_lid"]
+        if len(lid) < 100 or np.mean(lid[-100:]) > -LID:
+            return None
+        free = np.nonzero(lid > -LID)[0]
+        return self.time[free[-1]] if len(free) else self.time[0]
 
     def begin(self):
         """Where the run has begun [s]."""

@@ -113,7 +113,7 @@ template <class Field> void checkConditions(Field& field, Complaints& complaints
     }
 }
 
-/// Where the DEM is periodic the gas must be, with the same period, and the other way round. Collective.
+/// Where the DEM is periodic the gas must be, with the same period. A DEM that is not lets its particles leave a periodic gas. Collective.
 void checkPeriodicity(const Foam::fvMesh& mesh, const DemPort& dem, Complaints& complaints)
 {
     std::array<bool, 3> cyclic{};
@@ -134,16 +134,15 @@ void checkPeriodicity(const Foam::fvMesh& mesh, const DemPort& dem, Complaints& 
         const bool gas = Foam::returnReduce(bool(cyclic[n]), Foam::orOp<bool>());
         const std::string direction(1, "xyz"[axis]);
         const double allowed = samePeriod * box.size()[axis];
-        if (gas != dem.periodic()[n]) {
-            complaints.add(
-                "DEM script: boundary",
-                gas ? "the gas is cyclic along " + direction + ", but the DEM is not. Write p for this direction."
-                    : "the DEM is periodic along " + direction
-                          + ", but the gas has no cyclic patches there. Write f for this direction, or give the "
-                            "gas's mesh cyclic patches.");
-        } else if (gas
-                   && (std::abs(box.lower[axis] - bounds.min()[axis]) > allowed
-                       || std::abs(box.upper[axis] - bounds.max()[axis]) > allowed)) {
+        if (!dem.periodic()[n]) {
+            continue;
+        }
+        if (!gas) {
+            complaints.add("DEM script: boundary", "the DEM is periodic along " + direction
+                                                       + ", but the gas has no cyclic patches there. Write f for this "
+                                                         "direction, or give the gas's mesh cyclic patches.");
+        } else if (std::abs(box.lower[axis] - bounds.min()[axis]) > allowed
+                   || std::abs(box.upper[axis] - bounds.max()[axis]) > allowed) {
             complaints.add("DEM script: region", "both are periodic along " + direction + ", the DEM from "
                                                      + shown(box.lower[axis]) + " to " + shown(box.upper[axis])
                                                      + " m, the gas from " + shown(bounds.min()[axis]) + " to "
@@ -154,12 +153,11 @@ void checkPeriodicity(const Foam::fvMesh& mesh, const DemPort& dem, Complaints& 
 
 /// Fields and entries of the turbulence model, tried on a copy of the flow. Collective.
 void checkTurbulence(const gasProperties& gas, const Foam::volScalarField& voidFraction, const Foam::volVectorField& U,
-                     Complaints& complaints)
+                     const Foam::surfaceScalarField& flux, Complaints& complaints)
 {
     if (gas.turbulence.empty()) {
         return;
     }
-    const Foam::surfaceScalarField flux("phi", Foam::fvc::flux(U));
     const foamExceptions throwing;
     try {
         const gasTurbulence model(voidFraction, U, flux, flux, gas.exchange.viscosity / gas.exchange.density);
@@ -274,14 +272,15 @@ void checkGasFields(const gasProperties& gas, const Foam::fvMesh& mesh, Complain
         "p", mesh, Foam::dimPressure, "[1 -1 -2 0 0 0 0]",
         "the pressure of the gas [Pa], without its hydrostatic part, on every patch", complaints);
     if (U.valid() && p.valid()) {
-        const Foam::surfaceScalarField flux(
+        Foam::surfaceScalarField flux(
             Foam::IOobject("phi", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE),
-            Foam::fvc::flux(U()));
+            mesh, Foam::dimensionedScalar("zero", Foam::dimVelocity * Foam::dimArea, 0));
+        attempt("system/fvSchemes: interpolationSchemes", complaints, [&] { flux = Foam::fvc::flux(U()); });
         checkPatches(U(), p(), complaints);
         checkConditions(U.ref(), complaints);
         checkConditions(p.ref(), complaints);
         checkGasNumerics(mesh, flux, complaints);
-        checkTurbulence(gas, voidFraction, U(), complaints);
+        checkTurbulence(gas, voidFraction, U(), flux, complaints);
     }
 }
 
@@ -307,15 +306,15 @@ void checkGasScene(const gasProperties& gas, const Foam::fvMesh& mesh, const Dem
                              + " times the smallest cell, " + shown(cell) + " m, ";
     if (model == VoidFractionModel::smoothed) {
         const double share = smoothedShare(largest / cell, gas.exchange.smoothingLength / cell);
-        if (share > mostOfACell) {
+        if (largest > cell && gas.exchange.smoothingLength < largest) {
+            complaints.add(std::string(gasFile) + ": smoothingLength", size + "and is spread over "
+                                                                           + shown(gas.exchange.smoothingLength)
+                                                                           + " m only. Write at least its diameter.");
+        } else if (share > mostOfACell) {
             complaints.add(std::string(gasFile) + ": smoothingLength",
                            size + "and spread over " + shown(gas.exchange.smoothingLength) + " m it still fills "
                                + shown(share, 3) + " of a cell by itself; allowed is " + shown(mostOfACell, 3)
                                + ". Write a larger length, or use larger cells.");
-        } else if (largest > cell && gas.exchange.smoothingLength < largest) {
-            complaints.add(std::string(gasFile) + ": smoothingLength", size + "and is spread over "
-                                                                           + shown(gas.exchange.smoothingLength)
-                                                                           + " m only. Write at least its diameter.");
         }
         return;
     }

@@ -23,6 +23,7 @@ namespace {
 /// A gas step grows by no more than this factor at once.
 constexpr double growth = 1.2;
 
+/// Collective.
 std::vector<Foam::label> listedPatches(const Foam::fvMesh& mesh)
 {
     std::vector<Foam::label> listed;
@@ -76,7 +77,8 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
       flow_(mesh, properties.exchange, properties.pimple, !properties.turbulence.empty()),
       profile_(profileOf(properties.exchange, flow_.velocity())),
       coupling_(dem, cells_, properties.exchange, communicator, profile_.get()),
-      earlier_(readState(mesh.time()))
+      earlier_(readState(mesh.time())),
+      listed_(listedPatches(mesh))
 {
     if (properties_.maxDeltaT == 0) {
         properties_.maxDeltaT = mesh.time().deltaTValue();
@@ -89,7 +91,7 @@ gasPhase::gasPhase(const Foam::fvMesh& mesh, const gasProperties& properties, De
         << "# SI units. p_<patch>: area average of p without the hydrostatic part; in_<patch>: inflow of gas [m3/s].\n"
         << "# force: of drag and pressure gradient on all particles. given, got: impulse, sums since the start.\n"
         << "# Time deltaT Co";
-    for (const Foam::label patch : listedPatches(mesh_)) {
+    for (const Foam::label patch : listed_) {
         const Foam::word& name = mesh_.boundaryMesh()[patch].name();
         file_ << " p_" << name << " in_" << name;
     }
@@ -186,7 +188,7 @@ void gasPhase::writeLine(double time)
 {
     std::ostringstream patches;
     patches.precision(12);
-    for (const Foam::label patch : listedPatches(mesh_)) {
+    for (const Foam::label patch : listed_) {
         patches << ' ' << pressureOn(patch) << ' '
                 << -Foam::gSum(Foam::scalarField(flow_.voidFraction().boundaryField()[patch]
                                                  * flow_.flux().boundaryField()[patch]));

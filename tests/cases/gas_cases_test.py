@@ -59,7 +59,7 @@ def run(name, begin, end, lost, acceleration, uniform):
     bed = {"pressureDrop": (1 - lost*np.minimum(time/1.5, 1))*100, "chargePerMass": 2e-5*time, "chargingTime": 10*time, "particles": 20000*same,
            "tau": np.nan*same, "wallParticles": 9000*same, "wallSpeed": 0.01*same}
     late = lambda name, seconds=0.5: np.mean(bed[name][time > time[-1] - seconds])
-    return types.SimpleNamespace(name=name, time=time, bed=bed, late=late, acceleration=acceleration, uniform=uniform, leap=0, strength=4)
+    return types.SimpleNamespace(name=name, time=time, bed=bed, late=late, acceleration=acceleration, uniform=uniform, leap=0, strength=4, hangs_since=lambda: None)
 base = run("uncharged", 0, 0.5, 0, 0, False)
 runs = [run("a10-eg4", 0, 1.5, %r, 10, False), run("a10-eg4-uniform", 1.5, 1.7, %r, 10, True)]
 for sentence, so in findings(runs, base):

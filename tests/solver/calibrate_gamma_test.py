@@ -89,7 +89,7 @@ class CalibrateGamma(unittest.TestCase):
         self.assertIn("at least two runs with different Gamma", self.run_with("4e5 1e-5\n4e5 2e-5\n", 1e-5).stdout)
         done = self.run_with("4e5 1e-5\n8e5 5e-6\n6e5 2e-5\n", "nan", 1e-5)
         self.assertIn("-target: found nan", done.stdout)
-        self.assertIn("does not rise from Gamma = 6e+05 V/m (2e-05 C/kg) to 8e+05 V/m (5e-06 C/kg)", done.stdout)
+        self.assertIn("does not rise from Gamma = 600000 V/m (2e-05 C/kg) to 800000 V/m (5e-06 C/kg)", done.stdout)
 
     def test_runs_of_one_gamma_count_as_one_also_beyond_the_runs(self):
         found, text = self.gammas("4e5 0.9e-5\n4e5 1.1e-5\n8e5 3.8e-5\n8e5 4.2e-5\n", 2.5e-5, 5.5e-5)

@@ -199,7 +199,8 @@ class Momentum(unittest.TestCase):
                 self.assertAlmostEqual(row[name], expected[name], delta=1e-5*max(abs(line["p_bottom"]) for line in straight.values()))
 
     def test_a_box_that_gas_can_enter_but_not_leave_stops_the_run(self):
-        box = self.box([], walls=("left", "right", "front", "back", "bottom", "top"), wall_U={"bottom": "(0 0 0.1)"})
+        box = self.box([((0.02, 0.02, 0.02), (0, 0, 0), 1e-3, 1000.0)], walls=("left", "right", "front", "back", "bottom", "top"),
+                       wall_U={"bottom": "(0 0 0.1)"})
         result = box.run()
         self.assertNotEqual(result.code, 0)
         self.assertIn("no patch gives the pressure of the gas, but 0.00016 m3/s more enter than leave", " ".join(result.text.split()))

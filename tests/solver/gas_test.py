@@ -207,7 +207,7 @@ class Gas(unittest.TestCase):
     def test_refuses_iterations_that_would_not_solve_anything_and_entries_that_nothing_reads(self):
         self.case.replace("system/fvSolution", "nOuterCorrectors 2; nCorrectors 2;",
                           "nOuterCorrectors 0; nCorrectors none; momentumPredictor yes; pRefCell 100000;")
-        self.refused("system/fvSolution: PIMPLE: nOuterCorrectors: found 0", "nCorrectors: found none", "momentumPredictor",
+        self.refused("system/fvSolution: PIMPLE: nOuterCorrectors: found 0", "nCorrectors: found `none`", "momentumPredictor",
                      "pRefCell: found 100000, but the rank has")
 
     def test_refuses_settings_without_meaning(self):
