@@ -111,6 +111,9 @@ def draw(plain, others, path):
             those = [way for way in others if bool(way.run.leap) == (kind == "projective")]
             axis.plot([plain.cost/way.cost for way in those], [100*abs(way.beside(plain)[key]) for way in those], mark, label=kind)
         axis.set(xlabel="times as fast as plain", ylabel=f"deviation of the {label} [%]", xscale="log", ylim=(0, None))
+        ticks = sorted({round(plain.cost/way.cost) for way in others if np.isfinite(way.cost)})
+        axis.set_xticks(ticks, [str(tick) for tick in ticks])
+        axis.minorticks_off()
         axis.legend(fontsize=7)
     for way in [plain, *others]:
         axes[2].plot(1e15*way.charge, np.linspace(0, 1, len(way.charge)), lw=2 if way is plain else 1, ls="--" if way.run.leap else "-",

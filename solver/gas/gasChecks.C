@@ -97,7 +97,7 @@ void checkGravity(const gasProperties& gas, const DemPort& dem, Complaints& comp
         };
         complaints.add(std::string(gasFile) + ": gravity", "found " + words(given) + ", but the DEM script has "
                                                                + words(script)
-                                                               + " m/s2 (fix gravity). Write the same in both.");
+                                                               + " m/s2 (fix gravity; its variables are not read). Write the same in both.");
     }
 }
 

@@ -110,11 +110,12 @@ class ChargedBed(GasCase):
             self.assertAlmostEqual(row["total"]/spread[0]["total"], 1, delta=1e-12)
         self.assertEqual(spread[-1]["min"], spread[-1]["max"])
 
-        again = self.allrun(*self.SHORT, "-chargingTime", "0.08", "-np", "1", "-target", "3e-5")
+        again = self.allrun(*self.SHORT, "-chargingTime", "0.08", "-np", "1", "-strength", "4 8", "-target", "3e-5")
         self.assertIn(os.fspath(runs / "uncharged") + " has been run already", again.stdout)
         self.assertIn(os.fspath(uniform) + " has been run already", again.stdout)
-        # One run, and far from saturated: its books can be read, but give no Gamma.
-        self.assertRegex(again.stdout, r"calibration.dat: line 1: the .*run longer")
+        # Two runs, far from saturated: their books can be read, but give no Gamma.
+        for line in (1, 2):
+            self.assertRegex(again.stdout, r"calibration.dat: line %d: the .*run longer" % line)
         longer = series(charged, "charge", "charge.dat")
         self.assertGreater(longer[-1]["Time"], ledger[-1]["Time"])
         self.assertGreater(longer[-1]["total"], ledger[-1]["total"])
@@ -139,7 +140,7 @@ class ChargedBed(GasCase):
         for part in ("processor0", "processor1"):
             (run / part / states[-1] / "uniform/gas").unlink()
         again = self.allrun("-small", "-a", "", "-unchargedTime", "0.012", "-np", "1")
-        self.assertIn("startTime       %s;" % states[-2], (run / "system/controlDict").read_text(), again.stdout[-2000:])
+        self.assertRegex((run / "system/controlDict").read_text(), r"startTime +%s;" % re.escape(states[-2]), again.stdout[-2000:])
         self.assertFalse((run / "processor0").exists())
         # Written by the run on one rank: its first state after the joined one.
         self.assertGreater(max(float(folder.name) for folder in (run / "DEM/restart").iterdir()), 0.0119)
@@ -158,11 +159,10 @@ class ChargedBed(GasCase):
             self.assertAlmostEqual(end["Time"], 0.06 if end is ends["a1-eg4"] else 0.02, delta=1.1e-3)      # statistics are taken every 1 ms
         deviations = [[float(word.rstrip("%")) for word in line[10:].split(" its")[0].split()] for line in (accelerated, projective)]
         self.assertTrue(all(len(row) == 7 for row in deviations), deviations)
-        # The mean of each is what its books say of the moment that was written.
-        total = {run: rows(next((self.path / "runs/small" / run / "postProcessing/charge").glob("*/charge.dat")))[-1]
-                 for run in ("a1-eg4", "a5-eg4", "a1-eg4-leap4")}
-        for run, row in zip(("a5-eg4", "a1-eg4-leap4"), deviations):
-            self.assertAlmostEqual(row[2], 100*(total[run]["total"]/total["a1-eg4"]["total"] - 1), delta=0.06)
+        # The mean is what the books say of the moment that was written. (Those of the leap's end have their last line before it.)
+        total = {run: rows(next((self.path / "runs/small" / run / "postProcessing/charge").glob("*/charge.dat")))[-1]["total"]
+                 for run in ("a1-eg4", "a5-eg4")}
+        self.assertAlmostEqual(deviations[0][2], 100*(total["a5-eg4"]/total["a1-eg4"] - 1), delta=0.3)
 
 
 if __name__ == "__main__":
