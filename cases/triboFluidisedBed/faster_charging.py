@@ -50,7 +50,6 @@ class Way:
     def __init__(self, run, charging_time, time, charge):
         self.run, self.charge = run, np.sort(charge)
         self.name = "plain" if run.acceleration*(1 + run.leap) == 1 else f"leap {run.leap}" if run.leap else f"a = {run.acceleration:g}"
-        self.faster = run.acceleration*(1 + run.leap)
         self.cost = processor_time(run, time)
         self.mean = self.charge.mean()
         self.spread = self.charge.std()/self.mean
@@ -105,14 +104,15 @@ def report(runs, size):
 
 def draw(plain, others, path):
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import LogLocator, ScalarFormatter
     figure, axes = plt.subplots(1, 3, figsize=(13, 3.8), constrained_layout=True)
     for axis, key, label in ((axes[0], "spread", "spread over mean"), (axes[1], "distribution", "distribution")):
         for kind, mark in (("accelerated", "o-"), ("projective", "s-")):
             those = [way for way in others if bool(way.run.leap) == (kind == "projective")]
             axis.plot([plain.cost/way.cost for way in those], [100*abs(way.beside(plain)[key]) for way in those], mark, label=kind)
         axis.set(xlabel="times as fast as plain", ylabel=f"deviation of the {label} [%]", xscale="log", ylim=(0, None))
-        ticks = sorted({round(plain.cost/way.cost) for way in others if np.isfinite(way.cost)})
-        axis.set_xticks(ticks, [str(tick) for tick in ticks])
+        axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.xaxis.set_major_formatter(ScalarFormatter())
         axis.minorticks_off()
         axis.legend(fontsize=7)
     for way in [plain, *others]:

@@ -41,12 +41,11 @@ ChargeSeries readSeries(const std::filesystem::path& path)
     ChargeSeries series;
     std::vector<std::string> names;
     for (std::string line; std::getline(file, line);) {
-        const std::vector<std::string> words = wordsOf(
-            line.substr(line.find_first_not_of('#') == std::string::npos ? line.size() : line.find_first_not_of('#')));
         if (!line.empty() && line.front() == '#') {
-            names = words;
+            names = wordsOf(line.substr(1));
             continue;
         }
+        const std::vector<std::string> words = wordsOf(line);
         if (words.empty()) {
             continue;
         }

@@ -48,12 +48,7 @@ Foam::autoPtr<Field> readField(const Foam::word& name, const Foam::fvMesh& mesh,
         return nullptr;
     }
     Foam::autoPtr<Field> field;
-    const foamExceptions throwing;
-    try {
-        field.reset(new Field(header, mesh));
-    } catch (const Foam::error& error) {
-        complaints.add(where, firstLine(error));
-    }
+    attempt(where, complaints, [&] { field.reset(new Field(header, mesh)); });
     if (!onAllRanks(field.valid())) {
         return nullptr;
     }
@@ -95,9 +90,9 @@ void checkGravity(const gasProperties& gas, const DemPort& dem, Complaints& comp
         const auto words = [](const Vector3& g) {
             return "(" + shown(g[0]) + " " + shown(g[1]) + " " + shown(g[2]) + ")";
         };
-        complaints.add(std::string(gasFile) + ": gravity", "found " + words(given) + ", but the DEM script has "
-                                                               + words(script)
-                                                               + " m/s2 (fix gravity; its variables are not read). Write the same in both.");
+        complaints.add(std::string(gasFile) + ": gravity",
+                       "found " + words(given) + ", but the DEM script has " + words(script)
+                           + " m/s2 (fix gravity; its variables are not read). Write the same in both.");
     }
 }
 
@@ -158,12 +153,8 @@ void checkTurbulence(const gasProperties& gas, const Foam::volScalarField& voidF
     if (gas.turbulence.empty()) {
         return;
     }
-    const foamExceptions throwing;
-    try {
-        const gasTurbulence model(voidFraction, U, flux, flux, gas.exchange.viscosity / gas.exchange.density);
-    } catch (const Foam::error& error) {
-        complaints.add(std::string(turbulenceFile) + ": " + gas.turbulence, firstLine(error));
-    }
+    attempt(std::string(turbulenceFile) + ": " + gas.turbulence, complaints,
+            [&] { gasTurbulence(voidFraction, U, flux, flux, gas.exchange.viscosity / gas.exchange.density); });
 }
 
 /// Inflow, wall and outlet must be told apart: velocity or pressure has to be given on every patch.
@@ -244,13 +235,10 @@ Foam::autoPtr<Foam::fvMesh> openGasMesh(const Foam::Time& runTime, Complaints& c
         return nullptr;
     }
     Foam::autoPtr<Foam::fvMesh> mesh;
-    const foamExceptions throwing;
-    try {
+    attempt(where + ", system/fvSchemes or system/fvSolution", complaints, [&] {
         mesh.reset(new Foam::fvMesh(
             Foam::IOobject(Foam::polyMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)));
-    } catch (const Foam::error& error) {
-        complaints.add(where + ", system/fvSchemes or system/fvSolution", firstLine(error));
-    }
+    });
     return onAllRanks(mesh.valid()) ? std::move(mesh) : nullptr;
 }
 

@@ -167,8 +167,8 @@ void gasFlow::checkBalance() const
     }
     reduce(in, sumOp<scalar>());
     reduce(all, sumOp<scalar>());
-    const double volume = gSum(mesh_.V().field());
-    if (std::abs(in) > mostUnbalanced * all && std::abs(in) * mesh_.time().deltaTValue() > roundOff * volume) {
+    if (std::abs(in) > mostUnbalanced * all
+        && std::abs(in) * mesh_.time().deltaTValue() > roundOff * gSum(mesh_.V().field())) {
         throw std::runtime_error(
             "no patch gives the pressure of the gas, but " + shown(in)
             + " m3/s more enter than leave, for which there is no room. Give one patch, an outlet, a fixedValue "

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "dem_coupling/gas/gas_coupling.hpp"
+#include "electrostatics/constants.hpp"
+#include "tests/support/particle_sets.hpp"
+
+#include <array>
+#include <cmath>
+#include <mpi.h>
+#include <random>
+
+namespace him {
+
+// What the tests of the gas coupling share: a box of cells, a thick gas in it, and spheres on all ranks.
+
+inline const Box box{Vector3(0, 0, 0), Vector3(0.04, 0.02, 0.02)};
+constexpr std::array<Index, 3> cells{8, 4, 4};  // cubes of 5 mm
+constexpr double cellVolume = 5e-3 * 5e-3 * 5e-3;
+constexpr double step = 1e-5;
+
+inline GasSettings air(VoidFractionModel model = VoidFractionModel::centre)
+{
+    GasSettings settings;
+    settings.density = 100;
+    settings.viscosity = 1e-3;
+    settings.drag = "WenYu";
+    settings.voidFraction = model;
+    settings.smoothingLength = 8e-3;
+    return settings;
+}
+
+inline double overRanks(double value)
+{
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+inline Vector3 overRanks(Vector3 value)
+{
+    MPI_Allreduce(MPI_IN_PLACE, value.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+inline void resize(DemParticles& particles, Index rows)
+{
+    particles.tag.resize(static_cast<std::size_t>(rows));
+    particles.type.assign(static_cast<std::size_t>(rows), 1);
+    particles.position.conservativeResize(rows, 3);
+    particles.velocity.conservativeResize(rows, 3);
+    particles.charge.setZero(rows);
+    particles.radius.setConstant(rows, 2e-3);
+    particles.mass.setConstant(rows, 1000 * 4 * pi / 3 * std::pow(2e-3, 3));
+}
+
+/// Spheres of 4 mm that each rank owns a part of, wherever the cells are.
+inline DemParticles spheres(int count)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0, 1);
+    DemParticles all;
+    resize(all, count);
+    for (int n = 0; n < count; ++n) {
+        all.tag[static_cast<std::size_t>(n)] = n + 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            all.position(n, axis) = box.size()[axis] * share(random);
+            all.velocity(n, axis) = share(random) - 0.5;
+        }
+    }
+    return dealt(all, MPI_COMM_WORLD);
+}
+
+/// u = shear (y - y of the cell's centre) along x.
+class Shear : public VelocityProfile {
+public:
+    explicit Shear(const CellMesh& mesh) : mesh_(mesh) {}
+    void update(const Points& velocity) override
+    {
+        ++updates;
+        updatedBy = velocity;
+    }
+    Vector3 deviation(Index cell, const Vector3& point) const override
+    {
+        return rate * (point - mesh_.cellCentre(cell))[1] * Vector3::UnitX();
+    }
+    double rate = 300;
+    int updates = 0;
+    Points updatedBy;
+
+private:
+    const CellMesh& mesh_;
+};
+
+}  // namespace him
