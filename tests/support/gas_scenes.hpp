@@ -91,4 +91,40 @@ private:
     const CellMesh& mesh_;
 };
 
+/// A gas whose cells know nothing of one another: each has a mass and a velocity that its drag changes, implicitly.
+class LooseGas {
+public:
+    LooseGas(const FakeGasMesh& mesh, const GasSettings& settings) : settings_(settings)
+    {
+        result.velocity.setZero(mesh.cellCount(), 3);
+        result.velocity.col(0) = 1;
+        result.pressureForce.setZero(mesh.cellCount(), 3);
+        perVolume_.setConstant(mesh.cellCount(), settings.density);
+    }
+
+    void solve(const GasSources& sources, double duration)
+    {
+        const Points before = result.velocity;
+        for (int axis = 0; axis < 3; ++axis) {
+            result.velocity.col(axis) =
+                (perVolume_ * before.col(axis) + duration * sources.dragMomentum.col(axis) - sources.owed.col(axis))
+                / (perVolume_ + duration * sources.drag);
+        }
+        const Points change = (before - result.velocity).colwise() * perVolume_;
+        result.given = overRanks(Vector3(cellVolume * change.colwise().sum().matrix().transpose()));
+    }
+
+    Vector3 momentum() const
+    {
+        const Points all = result.velocity.colwise() * perVolume_;
+        return overRanks(Vector3(cellVolume * all.colwise().sum().matrix().transpose()));
+    }
+
+    GasResult result;
+
+private:
+    GasSettings settings_;
+    Scalars perVolume_;
+};
+
 }  // namespace him
