@@ -48,22 +48,14 @@ struct DemWall {
 struct GasForces {
     Points velocity;  ///< of the gas at the particle [m/s]
     Scalars drag;     ///< beta [kg/s], at least 0
-    Points force;     ///< of the gas beside drag, which the gas loses [N]
-    Points buoyancy;  ///< hydrostatic, which is balanced within the gas's own weight [N]
-    // No rows where nothing asks for them. The gas does not lose them in its solve: it pays for the impulse afterwards.
+    /// Hydrostatic, per volume of the particle; it is balanced within the gas's own weight [N/m3].
+    Vector3 buoyancy = Vector3::Zero();
+    Scalars volume;  ///< of the particle that buoyancy acts on: 0 outside the mesh [m3]
+    // No rows where nothing asks for them.
+    Points force;  ///< of the gas beside drag, which the gas loses [N]
+    // The gas does not lose these in its solve: it pays for the impulse afterwards.
     Points unpaid;      ///< lift, and added mass times the acceleration of the gas [N]
     Scalars addedMass;  ///< gas that a particle drags along when it is accelerated [kg]
-
-    /// Zeros. @param unpaidToo  whether the last two have rows
-    void resize(Index rows, bool unpaidToo = false)
-    {
-        velocity.setZero(rows, 3);
-        drag.setZero(rows);
-        force.setZero(rows, 3);
-        buoyancy.setZero(rows, 3);
-        unpaid.setZero(unpaidToo ? rows : 0, 3);
-        addedMass.setZero(unpaidToo ? rows : 0);
-    }
 };
 
 /// How a DEM wall takes part in charging, decided by the case.
@@ -158,16 +150,16 @@ public:
     virtual void run(long steps) = 0;
     /// Hands over what the gas does to the particles last given by particles(), in the same order. Before the first call no
     /// gas acts.
-    virtual void setGasForces(const GasForces& forces) = 0;
+    /// @param duration  how long they are going to act, for gasImpulse() [s]
+    virtual void setGasForces(const GasForces& forces, double duration) = 0;
     /// Whether the particles of a checkpoint brought the gas forces of its time with them. After handOver().
     virtual bool gasForcesRestarted() const { return false; }
-    /// Impulse [N s] that the gas has given each particle since setGasForces(), buoyancy left out, and what drag and force
-    /// promised for a duration [s] with the velocities of that moment; in the order of particles(), not collective. Zeros
-    /// before the first setGasForces().
-    virtual void gasImpulse(Points& given, double duration, Points& promised) const = 0;
-    /// Impulse [N s] that the gas has given since setGasForces() to particles that were taken out before gasImpulse() could
-    /// name it, buoyancy left out. This rank's part of a sum that means something over all ranks only. Not collective.
-    virtual Vector3 gasImpulseTakenOut() const { return Vector3::Zero(); }
+    /// Impulse [N s] that the gas has given each particle since setGasForces(), buoyancy left out, beyond what drag and force
+    /// promised for the duration told there with the velocities of that moment; in the order of particles(), not collective.
+    /// Zeros before the first setGasForces().
+    /// @return all impulse of the gas since then, also to particles that were taken out. This rank's part of a sum that means
+    ///         something over all ranks only
+    virtual Vector3 gasImpulse(Points& beyond) const = 0;
     /// Particles that there must be, all ranks: those of the hand-over and those that appeared, less those that were taken
     /// out with permission.
     virtual std::int64_t particleCount() const = 0;

@@ -2,23 +2,12 @@
 #include "dem_coupling/gamma_calibration.hpp"
 
 #include "dem_coupling/statistics/saturation_curve.hpp"
+#include "electrostatics/text.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
 namespace him {
-
-namespace {
-
-std::string inWords(double number)
-{
-    std::ostringstream text;
-    text << number;
-    return text.str();
-}
-
-}  // namespace
 
 ChargeSeries joinedSeries(std::vector<ChargeSeries> parts)
 {
@@ -54,7 +43,7 @@ double saturatedCharge(const ChargeSeries& series)
         throw std::invalid_argument("the charge shows no saturation yet; run longer");
     }
     if (curve.timeScale > times.back()) {
-        throw std::invalid_argument("the run ends before its charging time, tau/a = " + inWords(curve.timeScale)
+        throw std::invalid_argument("the run ends before its charging time, tau/a = " + shown(curve.timeScale)
                                     + " s; run longer");
     }
     return series.charges[begin] + curve.limit;
@@ -79,9 +68,9 @@ GammaCalibration::GammaCalibration(std::vector<CalibrationRun> runs)
     }
     for (std::size_t n = 1; n < runs_.size(); ++n) {
         if (!(runs_[n].chargePerMass > runs_[n - 1].chargePerMass)) {
-            throw std::invalid_argument("the charge per mass does not rise from Gamma = " + inWords(runs_[n - 1].gamma)
-                                        + " V/m (" + inWords(runs_[n - 1].chargePerMass) + " C/kg) to "
-                                        + inWords(runs_[n].gamma) + " V/m (" + inWords(runs_[n].chargePerMass)
+            throw std::invalid_argument("the charge per mass does not rise from Gamma = " + shown(runs_[n - 1].gamma)
+                                        + " V/m (" + shown(runs_[n - 1].chargePerMass) + " C/kg) to "
+                                        + shown(runs_[n].gamma) + " V/m (" + shown(runs_[n].chargePerMass)
                                         + " C/kg): nothing can be read off between them");
         }
     }

@@ -37,9 +37,9 @@ public:
     DemParticles targetsForMessages() const;
 
     /// Values of the targets, one row each, to the rows of the particles; zero for particles outside the mesh.
-    void bringBack(const Eigen::ArrayXXd& atTargets, Eigen::ArrayXXd& atRows)
+    template <class Take> void bringBack(const Eigen::ArrayXXd& atTargets, const Take& take)
     {
-        particlesOnMesh_.bringBack(atTargets, atRows, halo_.exchange());
+        particlesOnMesh_.bringBack(atTargets, halo_.exchange(), take);
     }
 
 private:

@@ -15,6 +15,7 @@ MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator, const Box&
     : mesh_(mesh),
       demBox_(demBox),
       periodic_(periodic),
+      anyPeriod_(periodic[0] || periodic[1] || periodic[2]),
       exchange_(communicator),
       bounds_(static_cast<std::size_t>(exchange_.ranks())),
       askedRows_(static_cast<std::size_t>(exchange_.ranks())),
@@ -26,7 +27,7 @@ MeshLocator::MeshLocator(const CellMesh& mesh, MPI_Comm communicator, const Box&
     MPI_Allgather(own.lower.data(), 6, MPI_DOUBLE, bounds_.data(), 6, MPI_DOUBLE, communicator);
 }
 
-Vector3 MeshLocator::shiftIntoBox(const Vector3& position) const
+Vector3 MeshLocator::shiftOfStray(const Vector3& position) const
 {
     Vector3 shift = Vector3::Zero();
     for (int axis = 0; axis < 3; ++axis) {
@@ -42,12 +43,10 @@ Vector3 MeshLocator::shiftIntoBox(const Vector3& position) const
 void MeshLocator::locate(const Points& positions)
 {
     const Index rows = positions.rows();
-    owner_.assign(static_cast<std::size_t>(rows), -1);
-    cellBefore_.swap(cell_);
-    cellBefore_.resize(static_cast<std::size_t>(rows), -1);
-    cell_.assign(static_cast<std::size_t>(rows), -1);
-    ownersCell_.assign(static_cast<std::size_t>(rows), -1);
-    cellCentre_ = positions;
+    // What stands there is of the locate() before: few particles leave their cell in a step.
+    owner_.resize(static_cast<std::size_t>(rows), -1);
+    cell_.resize(static_cast<std::size_t>(rows), -1);
+    foreignCentres_.clear();
 
     // Own cells first; for the rest, ask every rank whose bounds contain the point.
     exchange_.clear(outgoing_);
@@ -56,15 +55,14 @@ void MeshLocator::locate(const Points& positions)
     }
     for (Index row = 0; row < rows; ++row) {
         const Vector3 position = positions.row(row).matrix().transpose();
-        const Vector3 shift = shiftIntoBox(position);
-        const Vector3 point = position + shift;
-        const Index before = cellBefore_[static_cast<std::size_t>(row)];
-        const Index cell = before >= 0 && mesh_.surelyHolds(before, point) ? before : mesh_.findCell(point);
-        if (cell >= 0) {
-            owner_[static_cast<std::size_t>(row)] = exchange_.rank();
-            cell_[static_cast<std::size_t>(row)] = cell;
-            ownersCell_[static_cast<std::size_t>(row)] = cell;
-            cellCentre_.row(row) = (mesh_.cellCentre(cell) - shift).transpose().array();
+        const Vector3 point = position + shiftIntoBox(position);
+        const auto at = static_cast<std::size_t>(row);
+        if (isOwn(at) && mesh_.surelyHolds(cell_[at], point)) {
+            continue;
+        }
+        cell_[at] = static_cast<std::int32_t>(mesh_.findCell(point));
+        owner_[at] = cell_[at] >= 0 ? exchange_.rank() : -1;
+        if (cell_[at] >= 0) {
             continue;
         }
         for (int rank = 0; rank < exchange_.ranks(); ++rank) {
@@ -97,61 +95,33 @@ void MeshLocator::locate(const Points& positions)
             const Index row = askedRows_[rank][n];
             const double* answer = incoming_[rank].data() + 4 * n;
             if (answer[0] >= 0 && !inMesh(row)) {
-                ownersCell_[static_cast<std::size_t>(row)] = static_cast<Index>(answer[0]);
+                cell_[static_cast<std::size_t>(row)] = static_cast<std::int32_t>(answer[0]);
                 owner_[static_cast<std::size_t>(row)] = static_cast<int>(rank);
-                const Vector3 centre(answer[1], answer[2], answer[3]);
                 const Vector3 shift = shiftIntoBox(positions.row(row).matrix().transpose());
-                cellCentre_.row(row) = (centre - shift).transpose().array();
+                foreignCentres_.emplace_back(row, Vector3(answer[1], answer[2], answer[3]) - shift);
             }
         }
+    }
+}
+
+void MeshLocator::cellCentres(const Points& positions, Points& centres) const
+{
+    centres = positions;
+    for (Index row = 0; row < positions.rows(); ++row) {
+        if (isOwn(static_cast<std::size_t>(row))) {
+            const Vector3 shift = shiftIntoBox(positions.row(row).matrix().transpose());
+            centres.row(row) = (mesh_.cellCentre(cell(row)) - shift).transpose().array();
+        }
+    }
+    for (const auto& [row, centre] : foreignCentres_) {
+        centres.row(row) = centre.transpose().array();
     }
 }
 
 void MeshLocator::deposit(const Scalars& charge, Scalars& cellCharge)
 {
-    cellCharge.resize(mesh_.cellCount());
-    addToCells(charge, cellCharge);
-}
-
-void MeshLocator::deposit(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::ArrayXXd& ofCell)
-{
-    ofCell.resize(mesh_.cellCount(), ofRow.cols());
-    addToCells(ofRow, ofCell);
-}
-
-void MeshLocator::addToCells(const Eigen::Ref<const Eigen::ArrayXXd>& ofRow, Eigen::Ref<Eigen::ArrayXXd> ofCell)
-{
-    const Index columns = ofRow.cols();
-    exchange_.clear(outgoing_);
-    for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
-        for (const Index row : askedRows_[rank]) {
-            const bool taker = owner_[static_cast<std::size_t>(row)] == static_cast<int>(rank);
-            for (Index k = 0; k < columns; ++k) {
-                outgoing_[rank].push_back(taker ? ofRow(row, k) : 0.0);
-            }
-        }
-        incoming_[rank].resize(static_cast<std::size_t>(columns) * answeredCells_[rank].size());
-    }
-    exchange_.answer(outgoing_, incoming_);
-
-    ofCell.setZero();
-    for (Index k = 0; k < columns; ++k) {
-        for (std::size_t row = 0; row < cell_.size(); ++row) {
-            if (cell_[row] >= 0) {
-                ofCell(cell_[row], k) += ofRow(static_cast<Index>(row), k);
-            }
-        }
-    }
-    for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
-        const double* in = incoming_[rank].data();
-        for (const Index cell : answeredCells_[rank]) {
-            for (Index k = 0; k < columns; ++k, ++in) {
-                if (cell >= 0) {
-                    ofCell(cell, k) += *in;
-                }
-            }
-        }
-    }
+    deposit<1>([&](Index row) { return std::array<double, 1>{charge[row]}; }, depositedCharge_);
+    cellCharge = depositedCharge_.col(0);
 }
 
 void MeshLocator::answerVectors(const std::function<Vector3(std::size_t, std::size_t)>& valueOfAnswer)
@@ -185,42 +155,11 @@ void MeshLocator::gather(const std::function<Vector3(Index)>& valueOfCell, Point
     answerVectors([&](std::size_t rank, std::size_t n) { return valueOfCell(answeredCells_[rank][n]); });
     values.setZero(static_cast<Index>(owner_.size()), 3);
     for (std::size_t row = 0; row < cell_.size(); ++row) {
-        if (cell_[row] >= 0) {
+        if (isOwn(row)) {
             values.row(static_cast<Index>(row)) = valueOfCell(cell_[row]).transpose().array();
         }
     }
     takeAnswers(values);
-}
-
-void MeshLocator::gather(const Eigen::ArrayXXd& ofCell, Eigen::Ref<Eigen::ArrayXXd> ofRow)
-{
-    const Index columns = ofCell.cols();
-    exchange_.clear(outgoing_);
-    for (std::size_t rank = 0; rank < answeredCells_.size(); ++rank) {
-        for (const Index cell : answeredCells_[rank]) {
-            for (Index k = 0; k < columns; ++k) {
-                outgoing_[rank].push_back(cell >= 0 ? ofCell(cell, k) : 0.0);
-            }
-        }
-        incoming_[rank].resize(static_cast<std::size_t>(columns) * askedRows_[rank].size());
-    }
-    exchange_.answer(outgoing_, incoming_);
-    for (Index k = 0; k < columns; ++k) {
-        for (std::size_t row = 0; row < cell_.size(); ++row) {
-            ofRow(static_cast<Index>(row), k) = cell_[row] >= 0 ? ofCell(cell_[row], k) : 0.0;
-        }
-    }
-    for (std::size_t rank = 0; rank < askedRows_.size(); ++rank) {
-        const double* in = incoming_[rank].data();
-        for (const Index row : askedRows_[rank]) {
-            const bool answers = owner_[static_cast<std::size_t>(row)] == static_cast<int>(rank);
-            for (Index k = 0; k < columns; ++k, ++in) {
-                if (answers) {
-                    ofRow(row, k) = *in;
-                }
-            }
-        }
-    }
 }
 
 void MeshLocator::gather(const Points& positions, const std::function<Vector3(Index, const Vector3&)>& valueAt,
@@ -247,7 +186,7 @@ void MeshLocator::gather(const Points& positions, const std::function<Vector3(In
     });
     values.setZero(static_cast<Index>(owner_.size()), 3);
     for (std::size_t row = 0; row < cell_.size(); ++row) {
-        if (cell_[row] >= 0) {
+        if (isOwn(row)) {
             const auto r = static_cast<Index>(row);
             values.row(r) = valueAt(cell_[row], pointOf(r)).transpose().array();
         }

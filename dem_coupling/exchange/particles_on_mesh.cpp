@@ -30,13 +30,20 @@ void ParticlesOnMesh::distribute(const MeshLocator& locator, const DemParticles&
         return place + locator.shiftIntoBox(place);
     };
     // Nearly all particles are in cells of their own rank: those go into no message.
+    targetOfRow_.resize(static_cast<std::size_t>(particles.size()));
+    nextOfCell_.assign(static_cast<std::size_t>(halo.mesh().ownCells) + 1, 0);
     for (Index row = 0; row < particles.size(); ++row) {
-        if (!locator.inMesh(row)) {
-            continue;
-        }
-        const auto rank = static_cast<std::size_t>(locator.owner(row));
-        sentRows_[rank].push_back(row);
-        if (rank != self) {
+        const int owner = locator.owner(row);
+        std::int32_t& target = targetOfRow_[static_cast<std::size_t>(row)];
+        if (owner == exchange.rank()) {
+            target = 0;  // its number follows
+            ++nextOfCell_[static_cast<std::size_t>(locator.cell(row)) + 1];
+        } else if (owner < 0) {
+            target = outside;
+        } else {
+            target = elsewhere;
+            const auto rank = static_cast<std::size_t>(owner);
+            sentRows_[rank].push_back(row);
             const Vector3 place = placeInBox(row);
             outgoing_[rank].insert(outgoing_[rank].end(),
                                    {place[0], place[1], place[2], particles.charge[row],
@@ -47,17 +54,13 @@ void ParticlesOnMesh::distribute(const MeshLocator& locator, const DemParticles&
     exchange.exchange(outgoing_, incoming_);
 
     // Sorted by cell, within a cell by rank, of a rank as they came.
-    nextOfCell_.assign(static_cast<std::size_t>(halo.mesh().ownCells) + 1, 0);
-    auto targets = static_cast<Index>(sentRows_[self].size());
-    for (const Index row : sentRows_[self]) {
-        ++nextOfCell_[static_cast<std::size_t>(locator.cell(row)) + 1];
-    }
     for (const auto& buffer : incoming_) {
-        for (std::size_t at = 0; at < buffer.size(); at += ownPayload, ++targets) {
+        for (std::size_t at = 0; at < buffer.size(); at += ownPayload) {
             ++nextOfCell_[static_cast<std::size_t>(buffer[at + 4]) + 1];
         }
     }
     std::partial_sum(nextOfCell_.begin(), nextOfCell_.end(), nextOfCell_.begin());
+    const Index targets = nextOfCell_.back();
     sources.targets = targets;
     sources.position.resize(targets, 3);
     sources.charge.resize(targets);
@@ -73,10 +76,11 @@ void ParticlesOnMesh::distribute(const MeshLocator& locator, const DemParticles&
     };
     for (std::size_t rank = 0; rank < ranks; ++rank) {
         targetOf_[rank].clear();
-        if (rank == self) {
-            for (const Index row : sentRows_[self]) {
-                targetOf_[self].push_back(take(placeInBox(row), particles.charge[row], locator.cell(row),
-                                               particles.tag[static_cast<std::size_t>(row)]));
+        for (std::size_t row = 0; rank == self && row < targetOfRow_.size(); ++row) {
+            if (targetOfRow_[row] >= 0) {
+                const auto r = static_cast<Index>(row);
+                targetOfRow_[row] = static_cast<std::int32_t>(
+                    take(placeInBox(r), particles.charge[r], locator.cell(r), particles.tag[row]));
             }
         }
         for (std::size_t at = 0; at < incoming_[rank].size(); at += ownPayload) {
@@ -119,43 +123,6 @@ void ParticlesOnMesh::addCopies(MeshHalo& halo, double reach, CloudSources& sour
             sources.position.row(row) << buffer[at], buffer[at + 1], buffer[at + 2];
             sources.charge[row] = buffer[at + 3];
             sources.cell.push_back(static_cast<std::int32_t>(buffer[at + 4]));
-        }
-    }
-}
-
-void ParticlesOnMesh::bringBack(const Eigen::ArrayXXd& atTargets, Eigen::ArrayXXd& atRows, SparseExchange& exchange)
-{
-    const Index columns = atTargets.cols();
-    const auto self = static_cast<std::size_t>(exchange.rank());
-    exchange.clear(outgoing_);
-    exchange.clear(incoming_);
-    for (std::size_t rank = 0; rank < targetOf_.size(); ++rank) {
-        if (rank == self) {
-            continue;
-        }
-        for (const Index target : targetOf_[rank]) {
-            for (Index k = 0; k < columns; ++k) {
-                outgoing_[rank].push_back(atTargets(target, k));
-            }
-        }
-        incoming_[rank].resize(static_cast<std::size_t>(columns) * sentRows_[rank].size());
-    }
-    exchange.answer(outgoing_, incoming_);
-    atRows.setZero();
-    for (Index k = 0; k < columns; ++k) {
-        for (std::size_t n = 0; n < sentRows_[self].size(); ++n) {
-            atRows(sentRows_[self][n], k) = atTargets(targetOf_[self][n], k);
-        }
-    }
-    for (std::size_t rank = 0; rank < sentRows_.size(); ++rank) {
-        if (rank == self) {
-            continue;
-        }
-        const double* in = incoming_[rank].data();
-        for (const Index row : sentRows_[rank]) {
-            for (Index k = 0; k < columns; ++k) {
-                atRows(row, k) = *in++;
-            }
         }
     }
 }

@@ -40,7 +40,7 @@ void Him::compute(const DemParticles& particles, ParticleField& result)
         const PhaseTimer timer(times_, Phase::exchange);
         points_.position = particles.position;
         points_.charge = particles.charge;
-        points_.cellCentre = locator_.cellCentre();
+        locator_.cellCentres(particles.position, points_.cellCentre);
         halo_.extend(points_);
         if (result.excludedCount > 0) {
             halo_.forward(inMesh_);

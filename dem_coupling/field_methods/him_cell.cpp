@@ -34,8 +34,8 @@ double squaredDistance(const Box& a, const Box& b)
 
 }  // namespace
 
-HimCell::HimCell(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox, const std::array<bool, 3>& periodic,
-                 MPI_Comm communicator, PhaseTimes& times)
+HimCell::HimCell(const FieldSettings& settings, PoissonMesh& mesh, const Box& demBox,
+                 const std::array<bool, 3>& periodic, MPI_Comm communicator, PhaseTimes& times)
     : settings_(settings),
       mesh_(mesh),
       communicator_(communicator),
@@ -105,9 +105,9 @@ void HimCell::compute(const DemParticles& particles, ParticleField& result)
                             cells_.charges().position, communicator_);
     const PhaseTimer timer(times_, Phase::exchange);
     atTargets_ = sums_.field;
-    atRows_.resize(particles.size(), 3);
-    cells_.bringBack(atTargets_, atRows_);
-    result.field = atRows_;
+    result.field.resize(particles.size(), 3);
+    cells_.bringBack(
+        atTargets_, [&](Index row, const double* values) { result.field.row(row) << values[0], values[1], values[2]; });
     result.potential.resize(0);
     result.ownResponse.resize(0, 3);
     result.energy = std::numeric_limits<double>::quiet_NaN();

@@ -35,7 +35,7 @@ private:
     CellPairSum near_;
     PairSumResult sums_;
     Scalars cellCharge_, ownCharge_;
-    Eigen::ArrayXXd atTargets_, atRows_;
+    Eigen::ArrayXXd atTargets_;
 };
 
 }  // namespace him

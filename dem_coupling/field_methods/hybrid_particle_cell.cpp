@@ -26,7 +26,8 @@ HybridParticleCell::HybridParticleCell(const FieldSettings& settings, PoissonMes
       cells_(mesh, settings.nearCutoff * (1 + 2 * roundOff), demBox, open, communicator),
       near_(settings.permittivity)
 {
-    cells_.findNear([this](const LocalMesh& local, Index a, Index b) { return isNear(local.centreOf(a), local.centreOf(b)); });
+    cells_.findNear(
+        [this](const LocalMesh& local, Index a, Index b) { return isNear(local.centreOf(a), local.centreOf(b)); });
 }
 
 bool HybridParticleCell::isNear(const Vector3& a, const Vector3& b) const
@@ -62,10 +63,12 @@ void HybridParticleCell::compute(const DemParticles& particles, ParticleField& r
     atTargets_.resize(sums_.field.rows(), 4);
     atTargets_.leftCols(3) = sums_.field;
     atTargets_.col(3) = sums_.potential;
-    atRows_.resize(particles.size(), 4);
-    cells_.bringBack(atTargets_, atRows_);
-    result.field = atRows_.leftCols(3);
-    result.potential = atRows_.col(3);
+    result.field.resize(particles.size(), 3);
+    result.potential.resize(particles.size());
+    cells_.bringBack(atTargets_, [&](Index row, const double* values) {
+        result.field.row(row) << values[0], values[1], values[2];
+        result.potential[row] = values[3];
+    });
     result.ownResponse.resize(0, 3);
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);
@@ -90,7 +93,8 @@ void HybridParticleCell::gatherOccupiedCells()
     MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator_);
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
     received_.resize(static_cast<std::size_t>(starts.back() + counts.back()));
-    MPI_Allgatherv(sent_.data(), mine, MPI_DOUBLE, received_.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator_);
+    MPI_Allgatherv(sent_.data(), mine, MPI_DOUBLE, received_.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                   communicator_);
 
     far_.count = static_cast<Index>(received_.size()) / payload;
     for (Scalars* values : {&far_.x, &far_.y, &far_.z, &far_.charge}) {
@@ -115,7 +119,8 @@ void HybridParticleCell::addFarCells()
     for (Scalars* values : {&fieldX_, &fieldY_, &fieldZ_, &potential_}) {
         values->setZero(targets);
     }
-    const PointArrays sources{far_.x.data(), far_.y.data(), far_.z.data(), far_.charge.data(), nullptr, nullptr, nullptr};
+    const PointArrays sources{far_.x.data(), far_.y.data(), far_.z.data(), far_.charge.data(),
+                              nullptr,       nullptr,       nullptr};
     const PointArrays points{x_.data(), y_.data(), z_.data(), charges.charge.data(), nullptr, nullptr, nullptr};
     const SumArrays sums{fieldX_.data(), fieldY_.data(), fieldZ_.data(), potential_.data()};
     PairLimits limits{};

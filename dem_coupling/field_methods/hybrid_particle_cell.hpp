@@ -45,7 +45,7 @@ private:
     std::vector<RowRange> farRanges_;
     std::vector<double> sent_, received_;
     Scalars x_, y_, z_, fieldX_, fieldY_, fieldZ_, potential_;  ///< of the targets
-    Eigen::ArrayXXd atTargets_, atRows_;
+    Eigen::ArrayXXd atTargets_;
 };
 
 }  // namespace him

@@ -119,13 +119,6 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
     if (wantsPoints_) {
         preparePoints();
     }
-    {
-        const PhaseTimer timer(times_, Phase::exchange);
-        atRows_.resize(particles.size(), valuesPerTarget);
-        particlesOnMesh_.bringBack(atTargets_, atRows_, halo_.exchange());
-    }
-    result.field = atRows_.leftCols(3);
-    result.potential = atRows_.col(3);
     result.ownResponse.resize(0, 3);
     if (settings_.ownResponse) {
         if (!ownTable_ && !planes_.empty()) {
@@ -134,7 +127,18 @@ void P3m::compute(const DemParticles& particles, ParticleField& result)
         } else {
             result.ownResponse.setZero(particles.size(), 3);
         }
-        result.ownResponse += atRows_.rightCols(3);
+    }
+    {
+        const PhaseTimer timer(times_, Phase::exchange);
+        result.field.resize(particles.size(), 3);
+        result.potential.resize(particles.size());
+        particlesOnMesh_.bringBack(atTargets_, halo_.exchange(), [&](Index row, const double* values) {
+            result.field.row(row) << values[0], values[1], values[2];
+            result.potential[row] = values[3];
+            if (settings_.ownResponse) {
+                result.ownResponse.row(row) += Eigen::Map<const Eigen::Array3d>(values + 4).transpose();
+            }
+        });
     }
     addExternalField(settings_.externalField, result);
     addExternalPotential(settings_.externalField, particles, result);

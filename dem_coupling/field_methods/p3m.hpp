@@ -103,7 +103,7 @@ private:
     PairSumResult sums_;
     Scalars cellCharge_, cellPotential_, boundaryValue_, scratchCells_, scratchFaces_, ownCharge_;
     /// Of the targets: field (3), potential, own response (3).
-    Eigen::ArrayXXd atTargets_, atRows_;
+    Eigen::ArrayXXd atTargets_;
 };
 
 }  // namespace him

@@ -34,6 +34,12 @@ struct DragPoints {
     double viscosity = 0;  ///< [Pa s]
 
     Index rows() const { return slip.size(); }
+    void resize(Index rows)
+    {
+        voidFraction.resize(rows);
+        slip.resize(rows);
+        diameter.resize(rows);
+    }
     DragPoint at(Index row) const { return {voidFraction[row], slip[row], diameter[row], density, viscosity}; }
 };
 

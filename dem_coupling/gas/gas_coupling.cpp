@@ -50,30 +50,23 @@ GasCoupling::GasCoupling(DemPort& dem, const GasMesh& mesh, const GasSettings& s
     sources_.owed.setZero(mesh_.cellCount(), 3);
 }
 
-void GasCoupling::smoothColumns(Eigen::ArrayXXd& ofCell, Index columns)
+void GasCoupling::smoothColumns(CellValues& ofCells, Index columns)
 {
     if (settings_.voidFraction != VoidFractionModel::smoothed) {
         return;
     }
     for (Index k = 0; k < columns; ++k) {
-        smoothed_ = ofCell.col(k);
+        smoothed_ = ofCells.col(k);
         mesh_.smooth(smoothed_, settings_.smoothingLength);
-        ofCell.col(k) = smoothed_;
+        ofCells.col(k) = smoothed_;
     }
 }
 
-void GasCoupling::toCells(Columns& columns)
+template <std::size_t N, class ValuesOf> void GasCoupling::toCells(const ValuesOf& valuesOf, CellValues& ofCells)
 {
-    shares_.deposit(columns.ofRows, columns.ofCells);
-    columns.ofCells.colwise() /= volume_;
-    smoothColumns(columns.ofCells, columns.ofCells.cols());
-}
-
-void GasCoupling::toRows(Columns& columns, Index smoothed)
-{
-    // The adjoint of the deposit, so that a particle gets what the gas gives for it.
-    smoothColumns(columns.ofCells, smoothed);
-    shares_.gather(columns.ofCells, columns.ofRows);
+    shares_.deposit<N>(valuesOf, ofCells);
+    ofCells.colwise() /= volume_;
+    smoothColumns(ofCells, ofCells.cols());
 }
 
 void GasCoupling::begin(const DemParticles& particles)
@@ -85,8 +78,7 @@ void GasCoupling::collect(const DemParticles& particles, const Points& velocity)
 {
     layVolumes(particles);
     findDrag(particles, velocity);
-    dem_.gasImpulse(given_, lastDuration_, owed_);
-    owed_ = given_ - owed_;
+    given_ = dem_.gasImpulse(owed_);
     laySources(particles);
     settleOwed();
 }
@@ -95,7 +87,6 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
 {
     layVolumes(particles);
     if (dem_.gasForcesRestarted()) {
-        lastDuration_ = duration;
         books_.given = books_.ahead = ahead;
         return;
     }
@@ -107,12 +98,11 @@ void GasCoupling::resume(const DemParticles& particles, const GasResult& result,
 void GasCoupling::layVolumes(const DemParticles& particles)
 {
     shares_.locate(particles);
-    solid_.ofRows = sphereVolume(particles.radius);
-    toCells(solid_);
-    sources_.voidFraction = solid_.ofCells.col(0);
+    forces_.volume = sphereVolume(particles.radius);
+    toCells<1>([&](Index row) { return std::array<double, 1>{forces_.volume[row]}; }, solid_);
+    sources_.voidFraction = solid_.col(0);
 
-    // Sums: solid volume, particles outside, cells and volume below the bound, mass, its moments, momentum.
-    std::array<double, 11> sums{};
+    std::array<double, 4> sums{};  // solid volume, particles outside, cells and volume below the bound
     double smallest = 1;
     for (Index cell = 0; cell < volume_.size(); ++cell) {
         double& voidFraction = sources_.voidFraction[cell];
@@ -126,11 +116,6 @@ void GasCoupling::layVolumes(const DemParticles& particles)
         }
     }
     sums[1] = static_cast<double>(shares_.rowsOutside());
-    sums[4] = particles.mass.sum();
-    for (int axis = 0; axis < 3; ++axis) {
-        sums[5 + static_cast<std::size_t>(axis)] = (particles.mass * particles.position.col(axis)).sum();
-        sums[8 + static_cast<std::size_t>(axis)] = (particles.mass * particles.velocity.col(axis)).sum();
-    }
     sums = sumOverRanks(sums, communicator_);
     MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, communicator_);
     summary_.solidVolume = sums[0];
@@ -138,10 +123,6 @@ void GasCoupling::layVolumes(const DemParticles& particles)
     summary_.boundedCells = static_cast<std::int64_t>(sums[2]);
     summary_.boundedVolume = sums[3];
     summary_.smallestVoidFraction = smallest;
-    summary_.momentum = Vector3(sums[8], sums[9], sums[10]);
-    if (sums[4] > 0) {
-        summary_.massCentre = Vector3(sums[5], sums[6], sums[7]) / sums[4];
-    }
     if (smallest < 0) {
         throw std::runtime_error("a cell of the gas holds " + std::to_string(1 - smallest)
                                  + " of its volume of particles. Nothing the gas does there would be right: write "
@@ -180,34 +161,52 @@ void GasCoupling::refuseOutside(const DemParticles& particles) const
     throw std::runtime_error(text.str());
 }
 
+void GasCoupling::sumMotion(const DemParticles& particles)
+{
+    std::array<double, 7> sums{particles.mass.sum()};  // mass, its moments, momentum
+    for (int axis = 0; axis < 3; ++axis) {
+        sums[1 + static_cast<std::size_t>(axis)] = (particles.mass * particles.position.col(axis)).sum();
+        sums[4 + static_cast<std::size_t>(axis)] = (particles.mass * particles.velocity.col(axis)).sum();
+    }
+    sums = sumOverRanks(sums, communicator_);
+    summary_.momentum = Vector3(sums[4], sums[5], sums[6]);
+    if (sums[0] > 0) {
+        summary_.massCentre = Vector3(sums[1], sums[2], sums[3]) / sums[0];
+    }
+}
+
 void GasCoupling::findDrag(const DemParticles& particles, const Points& velocity)
 {
-    seen_.ofCells.resize(volume_.size(), 4);
-    seen_.ofCells.leftCols(3) = velocity;
-    seen_.ofCells.col(3) = sources_.voidFraction;
-    toRows(seen_, 3);  // the void fraction is smooth already
+    const Index rows = particles.size();
+    seen_.resize(volume_.size(), 4);
+    seen_.leftCols(3) = velocity;
+    seen_.col(3) = sources_.voidFraction;
+    smoothColumns(seen_, 3);  // the void fraction is smooth already
     if (profile_) {
         findDeviations(particles);
-        seen_.ofRows.leftCols(3) += deviation_;
     }
-    dragPoints_.voidFraction = seen_.ofRows.col(3);
-    dragPoints_.slip = (seen_.ofRows.leftCols(3) - particles.velocity).square().rowwise().sum().sqrt();
-    dragPoints_.diameter = 2 * particles.radius;
-    if (shares_.rowsOutside() > 0) {
-        for (Index row = 0; row < particles.size(); ++row) {
-            if (!shares_.inMesh(row)) {
-                dragPoints_.voidFraction[row] = 0.5;  // any that the laws take; its drag is not used
-            }
+    dragPoints_.resize(rows);
+    shares_.gather(seen_, [&](Index row, const double* gas) {
+        double squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double deviation = profile_ ? deviation_(row, axis) : 0;
+            const double slip = gas[axis] + deviation - particles.velocity(row, axis);
+            squared += slip * slip;
         }
-    }
+        dragPoints_.slip[row] = std::sqrt(squared);
+        dragPoints_.voidFraction[row] =
+            shares_.inMesh(row) ? gas[3] : 0.5;  // any that the laws take; its drag is not used
+        dragPoints_.diameter[row] = 2 * particles.radius[row];
+    });
     law_(dragPoints_, beta_);
 
-    forces_.resize(particles.size(), settings_.needsGasMotion());
+    forces_.drag.resize(rows);
     beyondDragLaw_ = 0;
     reachedBeyond_ = {-1, 0, 0};
     holdBeyond_ = ~DragLawSet(0);
-    for (Index row = 0; row < particles.size(); ++row) {
+    for (Index row = 0; row < rows; ++row) {
         if (!shares_.inMesh(row)) {
+            forces_.drag[row] = forces_.volume[row] = 0;
             continue;
         }
         const DragPoint point = dragPoints_.at(row);
@@ -226,37 +225,35 @@ void GasCoupling::findDrag(const DemParticles& particles, const Points& velocity
 
 void GasCoupling::findDeviations(const DemParticles& particles)
 {
-    profile_->update(seen_.ofCells.leftCols(3));
+    profile_->update(seen_.leftCols(3));
     shares_.gather(
         particles, [this](Index cell, const Vector3& point) { return profile_->deviation(cell, point); }, deviation_);
 }
 
 void GasCoupling::laySources(const DemParticles& particles)
 {
-    laid_.ofRows.resize(particles.size(), 7);
-    laid_.ofRows.col(0) = forces_.drag;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto velocity = particles.velocity.col(axis);
-        if (profile_) {
-            laid_.ofRows.col(1 + axis) = forces_.drag * (velocity - deviation_.col(axis));
-        } else {
-            laid_.ofRows.col(1 + axis) = forces_.drag * velocity;
+    const auto valuesOf = [&](Index row) {
+        std::array<double, 7> values{forces_.drag[row]};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double deviation = profile_ ? deviation_(row, axis) : 0;
+            const auto k = static_cast<std::size_t>(axis);
+            values[1 + k] = forces_.drag[row] * (particles.velocity(row, axis) - deviation);
+            values[4 + k] = owed_(row, axis);
         }
-    }
-    laid_.ofRows.rightCols(3) = owed_;
-    toCells(laid_);
-    sources_.drag = laid_.ofCells.col(0);
-    sources_.dragMomentum = laid_.ofCells.middleCols(1, 3);
-    sources_.owed = laid_.ofCells.rightCols(3);
+        return values;
+    };
+    toCells<7>(valuesOf, laid_);
+    sources_.drag = laid_.col(0);
+    sources_.dragMomentum = laid_.middleCols(1, 3);
+    sources_.owed = laid_.rightCols(3);
 }
 
 void GasCoupling::settleOwed()
 {
-    const Vector3 takenOut = dem_.gasImpulseTakenOut();
     std::array<double, 7> sums{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto column = static_cast<std::size_t>(axis);
-        sums[column] = given_.col(axis).sum() + takenOut[axis];
+        sums[column] = given_[axis];
         sums[3 + column] = (sources_.owed.col(axis) * volume_).sum();
     }
     sums[6] = (sources_.drag * volume_).sum();
@@ -275,69 +272,63 @@ void GasCoupling::settleOwed()
     }
 }
 
-void GasCoupling::addUnpaidForces(const DemParticles& particles)
+void GasCoupling::addUnpaidForces(const DemParticles& particles, Index row, const Vector3& acceleration,
+                                  const Vector3& vorticity)
 {
-    const auto acceleration = back_.ofRows.rightCols(6).leftCols(3);
-    const auto vorticity = back_.ofRows.rightCols(3);
-    beyondLift_ = 0;
-    for (Index row = 0; row < particles.size(); ++row) {
-        if (!shares_.inMesh(row)) {
-            continue;
-        }
-        const double displaced = settings_.density * sphereVolume(particles.radius[row]);
-        forces_.addedMass[row] = settings_.virtualMass * displaced;
-        forces_.unpaid.row(row) = forces_.addedMass[row] * acceleration.row(row);
-        if (settings_.saffmanLift) {
-            const Vector3 slip = (forces_.velocity.row(row) - particles.velocity.row(row)).matrix().transpose();
-            const Vector3 curl = vorticity.row(row).matrix().transpose();
-            const double diameter = 2 * particles.radius[row];
-            forces_.unpaid.row(row) +=
-                saffmanLift(settings_.density, settings_.viscosity, diameter, slip, curl).transpose().array();
-            beyondLift_ += !saffmanHolds(settings_.density, settings_.viscosity, diameter, slip, curl);
-        }
+    const double displaced = settings_.density * forces_.volume[row];
+    forces_.addedMass[row] = settings_.virtualMass * displaced;
+    forces_.unpaid.row(row) = forces_.addedMass[row] * acceleration.transpose().array();
+    if (settings_.saffmanLift && shares_.inMesh(row)) {
+        const Vector3 slip = (forces_.velocity.row(row) - particles.velocity.row(row)).matrix().transpose();
+        const double diameter = 2 * particles.radius[row];
+        forces_.unpaid.row(row) +=
+            saffmanLift(settings_.density, settings_.viscosity, diameter, slip, vorticity).transpose().array();
+        beyondLift_ += !saffmanHolds(settings_.density, settings_.viscosity, diameter, slip, vorticity);
     }
 }
 
 void GasCoupling::handBack(const DemParticles& particles, const GasResult& result, double duration)
 {
+    const Index rows = particles.size();
     const bool feelsPressure = settings_.pressure == PressureModel::modelA;
-    back_.ofCells.resize(volume_.size(), 3 + (feelsPressure ? 3 : 0) + (settings_.needsGasMotion() ? 6 : 0));
-    back_.ofCells.leftCols(3) = result.velocity;
+    const bool feelsMotion = settings_.needsGasMotion();
+    back_.resize(volume_.size(), 3 + (feelsPressure ? 3 : 0) + (feelsMotion ? 6 : 0));
+    back_.leftCols(3) = result.velocity;
     if (feelsPressure) {
-        back_.ofCells.middleCols(3, 3) = result.pressureForce;
+        back_.middleCols(3, 3) = result.pressureForce;
     }
-    if (settings_.needsGasMotion()) {
-        back_.ofCells.rightCols(6).leftCols(3) = result.acceleration;
-        back_.ofCells.rightCols(3) = result.vorticity;
+    if (feelsMotion) {
+        back_.rightCols(6).leftCols(3) = result.acceleration;
+        back_.rightCols(3) = result.vorticity;
     }
-    toRows(back_, back_.ofCells.cols());
-    forces_.velocity = back_.ofRows.leftCols(3);
-    if (profile_) {
-        forces_.velocity += deviation_;
-    }
-    for (Index row = 0; row < particles.size(); ++row) {
-        if (!shares_.inMesh(row)) {
-            continue;
+    smoothColumns(back_, back_.cols());
+
+    forces_.buoyancy = -settings_.density * settings_.gravity;
+    forces_.velocity.resize(rows, 3);
+    forces_.force.resize(feelsPressure ? rows : 0, 3);
+    forces_.unpaid.resize(feelsMotion ? rows : 0, 3);
+    forces_.addedMass.resize(feelsMotion ? rows : 0);
+    beyondLift_ = 0;
+    std::array<double, 5> sums{};  // force on the particles, those where drag law and lift do not hold
+    shares_.gather(back_, [&](Index row, const double* gas) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double velocity = gas[axis] + (profile_ ? deviation_(row, axis) : 0);
+            double force = forces_.drag[row] * (velocity - particles.velocity(row, axis));
+            forces_.velocity(row, axis) = velocity;
+            if (feelsPressure) {
+                forces_.force(row, axis) = forces_.volume[row] * gas[3 + axis];
+                force += forces_.force(row, axis);
+            }
+            sums[static_cast<std::size_t>(axis)] += force;
         }
-        const double volume = sphereVolume(particles.radius[row]);
-        if (feelsPressure) {
-            forces_.force.row(row) = volume * back_.ofRows.row(row).segment<3>(3);
+        if (feelsMotion) {
+            const double* const motion = gas + (feelsPressure ? 6 : 3);
+            addUnpaidForces(particles, row, Vector3(motion), Vector3(motion + 3));
         }
-        forces_.buoyancy.row(row) = -settings_.density * volume * settings_.gravity.transpose().array();
-    }
-    if (settings_.needsGasMotion()) {
-        addUnpaidForces(particles);
-    }
-    dem_.setGasForces(forces_);
-    lastDuration_ = duration;
-    std::array<double, 5> sums{};
+    });
+    dem_.setGasForces(forces_, duration);
     sums[3] = static_cast<double>(beyondDragLaw_);
     sums[4] = static_cast<double>(beyondLift_);
-    for (int axis = 0; axis < 3; ++axis) {
-        sums[static_cast<std::size_t>(axis)] =
-            (forces_.drag * (forces_.velocity.col(axis) - particles.velocity.col(axis)) + forces_.force.col(axis))
-                .sum();
-    }
     sums = sumOverRanks(sums, communicator_);
     summary_.force = Vector3(sums[0], sums[1], sums[2]);
     summary_.beyondDragLaw = static_cast<std::int64_t>(sums[3]);

@@ -51,8 +51,8 @@ struct GasSummary {
     std::int64_t boundedCells = 0;         ///< cells whose void fraction fell below the smallest allowed
     double boundedVolume = 0;              ///< solid volume that those cells hold above it [m3]
     double smallestVoidFraction = 1;       ///< before it was bounded
-    Vector3 massCentre = Vector3::Zero();  ///< of the particles [m]
-    Vector3 momentum = Vector3::Zero();    ///< of the particles, at the end of the step [N s]
+    Vector3 massCentre = Vector3::Zero();  ///< of the particles at the last sumMotion() [m]
+    Vector3 momentum = Vector3::Zero();    ///< likewise [N s]
     Vector3 force = Vector3::Zero();  ///< of drag and pressure gradient on the particles, at the end of the step [N]
     std::int64_t beyondDragLaw = 0;   ///< particles where the drag law has not been shown to hold, see DragLawRange
     std::array<double, 2> voidFractionsBeyondDragLaw{1, 0};  ///< smallest and largest among those particles
@@ -86,6 +86,8 @@ public:
     /// Hands the gas to the particles of collect(). Collective.
     /// @param duration  of the gas step [s]
     void handBack(const DemParticles& particles, const GasResult& result, double duration);
+    /// Mass centre and momentum of the particles in summary(), which cost nothing until they are asked for. Collective.
+    void sumMotion(const DemParticles& particles);
 
     /// Takes up a run where it stopped: the gas acts on the particles as its last solve left it. Collective.
     /// @param result    of that solve
@@ -109,19 +111,15 @@ private:
     void laySources(const DemParticles& particles);
     /// Books what the particles got, and spreads what the deposit does not know of.
     void settleOwed();
-    /// Lift and what the acceleration of the gas does to a particle; back_ ends with acceleration and vorticity.
-    void addUnpaidForces(const DemParticles& particles);
-    /// The void-fraction model's spreading of every column, per volume or value of the cells.
-    void smoothColumns(Eigen::ArrayXXd& ofCell, Index columns);
-    /// Values on their way, one column each. One for every way, so that none changes its size in a steady run.
-    struct Columns {
-        Eigen::ArrayXXd ofCells, ofRows;
-    };
-    /// Sums over particles per volume of cells, and the means of cells at particles, by the void-fraction model. Collective.
-    void toCells(Columns& columns);
-    /// Leaves ofCells smoothed.
-    /// @param smoothed  how many columns go through the adjoint of the smoothing, the first ones
-    void toRows(Columns& columns, Index smoothed);
+    /// Lift and what the acceleration of the gas does to a particle.
+    /// @param acceleration, vorticity  of the gas at the particle [m/s2], [1/s]
+    void addUnpaidForces(const DemParticles& particles, Index row, const Vector3& acceleration,
+                         const Vector3& vorticity);
+    /// Sums over particles per volume of cells, by the void-fraction model. Collective.
+    template <std::size_t N, class ValuesOf> void toCells(const ValuesOf& valuesOf, CellValues& ofCells);
+    /// The void-fraction model's spreading of the first columns, per volume or value of the cells. As the adjoint of the deposit
+    /// it goes before a gather, so that a particle gets what the gas gives for it.
+    void smoothColumns(CellValues& ofCells, Index columns);
 
     DemPort& dem_;
     const GasMesh& mesh_;
@@ -135,16 +133,16 @@ private:
     GasForces forces_;
     GasSummary summary_;
     MomentumBooks books_;
-    double lastDuration_ = 0;                   ///< [s]
     Index beyondDragLaw_ = 0, beyondLift_ = 0;  ///< of this rank
     std::array<double, 3> reachedBeyond_{};     ///< -smallest and largest void fraction, largest Reynolds number
     DragLawSet holdBeyond_ = 0;
     Scalars volume_;  ///< of the cells [m3]
     Scalars smoothed_;
-    Columns solid_, seen_, laid_, back_;
+    CellValues solid_, seen_, laid_, back_;  // apart, so that none changes its size in a steady run
     DragPoints dragPoints_;
-    Scalars beta_;  ///< of each row by model A [kg/s]
-    Points given_, owed_;
+    Scalars beta_;                     ///< of each row by model A [kg/s]
+    Vector3 given_ = Vector3::Zero();  ///< to the particles in the gas step, this rank's part [N s]
+    Points owed_;
     Points deviation_;  ///< of the gas velocity at each row from that of its cells [m/s]; no rows without a profile
 };
 

@@ -42,21 +42,22 @@ ParticleShares::ParticleShares(const CellMesh& mesh, MPI_Comm communicator, cons
 void ParticleShares::locate(const DemParticles& particles)
 {
     static const std::array<Vector3, 14> around = directions();
+    rows_ = particles.size();
     if (points_ == 1) {
         locator_.locate(particles.position);
-    } else {
-        place_.resize(points_ * particles.size(), 3);
-        for (Index row = 0; row < particles.size(); ++row) {
-            place_.row(points_ * row) = particles.position.row(row);
-            for (std::size_t n = 0; n < around.size(); ++n) {
-                place_.row(points_ * row + 1 + static_cast<Index>(n)) =
-                    particles.position.row(row) + shell * particles.radius[row] * around[n].transpose().array();
-            }
-        }
-        locator_.locate(place_);
+        return;
     }
-    inside_.assign(static_cast<std::size_t>(particles.size()), 0);
-    for (Index row = 0; row < particles.size(); ++row) {
+    place_.resize(points_ * rows_, 3);
+    for (Index row = 0; row < rows_; ++row) {
+        place_.row(points_ * row) = particles.position.row(row);
+        for (std::size_t n = 0; n < around.size(); ++n) {
+            place_.row(points_ * row + 1 + static_cast<Index>(n)) =
+                particles.position.row(row) + shell * particles.radius[row] * around[n].transpose().array();
+        }
+    }
+    locator_.locate(place_);
+    inside_.assign(static_cast<std::size_t>(rows_), 0);
+    for (Index row = 0; row < rows_; ++row) {
         for (Index point = points_ * row; point < points_ * (row + 1); ++point) {
             inside_[static_cast<std::size_t>(row)] += locator_.inMesh(point);
         }
@@ -65,42 +66,11 @@ void ParticleShares::locate(const DemParticles& particles)
 
 Index ParticleShares::rowsOutside() const
 {
-    return std::count(inside_.begin(), inside_.end(), 0);
-}
-
-Eigen::Map<Eigen::ArrayXXd> ParticleShares::pointValues(Index columns)
-{
-    const Index points = points_ * static_cast<Index>(inside_.size());
-    pointMemory_.resize(static_cast<std::size_t>(points * columns));
-    return {pointMemory_.data(), points, columns};
-}
-
-void ParticleShares::deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell)
-{
-    if (points_ == 1) {
-        locator_.deposit(ofRow, ofCell);
-        return;
+    Index outside = 0;
+    for (Index row = 0; row < rows_; ++row) {
+        outside += !inMesh(row);
     }
-    Eigen::Map<Eigen::ArrayXXd> ofPoint = pointValues(ofRow.cols());
-    for (Index k = 0; k < ofRow.cols(); ++k) {
-        for (Index row = 0; row < ofRow.rows(); ++row) {
-            const int inside = inside_[static_cast<std::size_t>(row)];
-            ofPoint.col(k).segment(points_ * row, points_).setConstant(inside > 0 ? ofRow(row, k) / inside : 0);
-        }
-    }
-    locator_.deposit(ofPoint, ofCell);
-}
-
-void ParticleShares::gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow)
-{
-    if (points_ == 1) {
-        ofRow.resize(static_cast<Index>(inside_.size()), ofCell.cols());
-        locator_.gather(ofCell, ofRow);
-        return;
-    }
-    Eigen::Map<Eigen::ArrayXXd> ofPoint = pointValues(ofCell.cols());
-    locator_.gather(ofCell, ofPoint);
-    meanOfPoints(ofPoint, ofRow);
+    return outside;
 }
 
 void ParticleShares::gather(const DemParticles& particles, const std::function<Vector3(Index, const Vector3&)>& valueAt,
@@ -111,16 +81,11 @@ void ParticleShares::gather(const DemParticles& particles, const std::function<V
         return;
     }
     locator_.gather(place_, valueAt, pointVector_);
-    meanOfPoints(pointVector_, ofRow);
-}
-
-template <class OfPoint, class OfRow> void ParticleShares::meanOfPoints(const OfPoint& ofPoint, OfRow& ofRow) const
-{
-    ofRow.setZero(static_cast<Index>(inside_.size()), ofPoint.cols());
-    for (Index row = 0; row < ofRow.rows(); ++row) {
+    ofRow.setZero(rows_, 3);
+    for (Index row = 0; row < rows_; ++row) {
         const int inside = inside_[static_cast<std::size_t>(row)];
         if (inside > 0) {
-            ofRow.row(row) = ofPoint.middleRows(points_ * row, points_).colwise().sum() / inside;
+            ofRow.row(row) = pointVector_.middleRows(points_ * row, points_).colwise().sum() / inside;
         }
     }
 }

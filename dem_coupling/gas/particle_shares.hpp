@@ -4,7 +4,10 @@
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/exchange/mesh_locator.hpp"
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace him {
 
@@ -22,14 +25,19 @@ public:
     /// Collective.
     void locate(const DemParticles& particles);
     /// Whether any point of a row is in the mesh; others give nothing and gather zero.
-    bool inMesh(Index row) const { return inside_[static_cast<std::size_t>(row)] > 0; }
+    bool inMesh(Index row) const
+    {
+        return points_ == 1 ? locator_.inMesh(row) : inside_[static_cast<std::size_t>(row)] > 0;
+    }
     Index rowsOutside() const;  ///< of this rank
 
-    /// Sums over particles of share times value, per local cell; one column for each of a particle's values. A column's total is
-    /// that over all rows in the mesh. Collective.
-    void deposit(const Eigen::ArrayXXd& ofRow, Eigen::ArrayXXd& ofCell);
+    /// Sums over particles of share times value, per local cell, N values of a particle at once. Each total is that over all rows
+    /// in the mesh. Collective.
+    /// @param valuesOf  std::array<double, N> of a row in the mesh
+    template <std::size_t N, class ValuesOf> void deposit(const ValuesOf& valuesOf, CellValues& ofCell);
     /// Per row the means over its shares of values of the cells, one row per local cell. Collective.
-    void gather(const Eigen::ArrayXXd& ofCell, Eigen::ArrayXXd& ofRow);
+    /// @param take  called once for every row with its number and its means (const double*)
+    template <class Take> void gather(const CellValues& ofCell, const Take& take);
     /// Per row the mean over its points of a value that varies inside the cells. Collective; valueAt is called on the rank of
     /// the cell.
     /// @param particles  those of locate()
@@ -38,17 +46,59 @@ public:
                 Points& ofRow);
 
 private:
-    /// Room for values of all points, one column each.
-    Eigen::Map<Eigen::ArrayXXd> pointValues(Index columns);
-    /// Per row the mean of a value over its points in the mesh.
-    template <class OfPoint, class OfRow> void meanOfPoints(const OfPoint& ofPoint, OfRow& ofRow) const;
-
     MeshLocator locator_;
-    Index points_;                     ///< per particle
-    std::vector<int> inside_;          ///< points of each row in the mesh
+    Index points_;  ///< per particle
+    Index rows_ = 0;
+    std::vector<std::int8_t> inside_;  ///< points of each row in the mesh; empty with one point per particle
     Points place_;                     ///< of all points, row by row [m]
-    std::vector<double> pointMemory_;  ///< kept for any number of columns
+    CellValues sums_;                  ///< of a row over its points
     Points pointVector_;
 };
+
+template <std::size_t N, class ValuesOf> void ParticleShares::deposit(const ValuesOf& valuesOf, CellValues& ofCell)
+{
+    if (points_ == 1) {
+        locator_.deposit<N>(valuesOf, ofCell);
+        return;
+    }
+    // The points of a row come one after the other.
+    Index last = -1;
+    std::array<double, N> share{};
+    const auto ofPoint = [&](Index point) {
+        const Index row = point / points_;
+        if (row != last) {
+            last = row;
+            share = valuesOf(row);
+            for (double& value : share) {
+                value /= inside_[static_cast<std::size_t>(row)];
+            }
+        }
+        return share;
+    };
+    locator_.deposit<N>(ofPoint, ofCell);
+}
+
+template <class Take> void ParticleShares::gather(const CellValues& ofCell, const Take& take)
+{
+    if (points_ == 1) {
+        locator_.gather(ofCell, take);
+        return;
+    }
+    sums_.setZero(rows_, ofCell.cols());
+    locator_.gather(ofCell, [&](Index point, const double* values) {
+        double* const sum = sums_.data() + point / points_ * sums_.cols();
+        for (Index k = 0; k < sums_.cols(); ++k) {
+            sum[k] += values[k];
+        }
+    });
+    for (Index row = 0; row < rows_; ++row) {
+        double* const sum = sums_.data() + row * sums_.cols();
+        const int inside = inside_[static_cast<std::size_t>(row)];
+        for (Index k = 0; inside > 0 && k < sums_.cols(); ++k) {
+            sum[k] /= inside;
+        }
+        take(row, sum);
+    }
+}
 
 }  // namespace him

@@ -138,7 +138,7 @@ FixChargeGranContact::~FixChargeGranContact()
 
 int FixChargeGranContact::setmask()
 {
-    return LAMMPS_NS::FixConst::END_OF_STEP;
+    return LAMMPS_NS::FixConst::PRE_EXCHANGE | LAMMPS_NS::FixConst::END_OF_STEP;
 }
 
 void FixChargeGranContact::init()
@@ -319,7 +319,7 @@ void FixChargeGranContact::moveCharges()
         findFieldAtContactPoints();
     }
     transfer_.move(rows, recorder_.pairs, growingWallContacts_);
-    keepWallCharges();
+    wallCharges_.add(transfer_.wallGains(), atom->x, atom->radius);
 }
 
 int FixChargeGranContact::pack_comm(int n, int* list, double* buffer, int, int*)

@@ -5,6 +5,7 @@
 #include "dem_coupling/charging/charge_transfer.hpp"
 #include "dem_coupling/charging/contact_recorder.hpp"
 #include "dem_coupling/charging/initial_charge.hpp"
+#include "dem_coupling/charging/wall_charge_list.hpp"
 #include "dem_coupling/charging/wall_contact_memory.hpp"
 #include "dem_coupling/dem_port.hpp"
 #include "dem_coupling/liggghts/wall_list.hpp"
@@ -73,6 +74,7 @@ public:
     // --- LIGGGHTS' life cycle
     int setmask() override;
     void init() override;
+    void pre_exchange() override { wallCharges_.separate(); }
     void end_of_step() override;
     /// One more value per pair contact under `update frozen`: the charge it has moved towards the lower tag. Contacts of others
     /// do without, since history is read and written in every step, unless an earlier charging fix made room for it: LIGGGHTS
@@ -116,7 +118,6 @@ private:
     void tellOfLostWalls();
     std::size_t packRow(int row, double* buffer) const;
     void bookArrivals();
-    void keepWallCharges();
     /// E_other of the growing wall contacts at their contact points. Collective.
     void findFieldAtContactPoints();
 
@@ -126,10 +127,10 @@ private:
     std::vector<GrowingWallContact> growingWallContacts_;
     std::vector<ListedWall> walls_;
     std::vector<WallRole> roles_;
-    std::vector<WallCharge> wallCharges_;  ///< not taken yet
-    std::vector<char> booked_;             ///< per row: the particle's charge stands in the books
-    std::vector<char> charged_;            ///< per row: the particle got its initial charge, or brought one
-    bool arrivals_ = false;                ///< some row is not booked yet
+    WallChargeList wallCharges_;  ///< not taken yet
+    std::vector<char> booked_;    ///< per row: the particle's charge stands in the books
+    std::vector<char> charged_;   ///< per row: the particle got its initial charge, or brought one
+    bool arrivals_ = false;       ///< some row is not booked yet
     bool enabled_;
     bool stopped_ = false;        ///< the host holds the charges
     bool roomInHistory_ = false;  ///< contacts have room for a value of ours from before this fix

@@ -140,17 +140,6 @@ bool FixChargeGranContact::transfersAt(const std::string& wall) const
                        [&](const WallRole& role) { return role.name != wall || role.transfersCharge; });
 }
 
-void FixChargeGranContact::keepWallCharges()
-{
-    for (const ChargeTransfer::WallGain& gain : transfer_.wallGains()) {
-        const double* centre = atom->x[gain.particle];
-        const double radius = atom->radius[gain.particle];
-        const Vector3 point(centre[0] + radius * gain.normal[0], centre[1] + radius * gain.normal[1],
-                            centre[2] + radius * gain.normal[2]);
-        wallCharges_.push_back({point, gain.wall, gain.charge});
-    }
-}
-
 void FixChargeGranContact::findFieldAtContactPoints()
 {
     const auto contacts = static_cast<Index>(growingWallContacts_.size());
@@ -175,8 +164,7 @@ void FixChargeGranContact::findFieldAtContactPoints()
 
 void FixChargeGranContact::takeWallCharges(std::vector<WallCharge>& out)
 {
-    out.clear();
-    out.swap(wallCharges_);
+    wallCharges_.take(out);
 }
 
 }  // namespace him

@@ -2,26 +2,27 @@
 #include "dem_coupling/liggghts/fix_couple_cfd_drag.hpp"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "memory.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace him {
 namespace {
 
-// Columns of a particle's row.
-constexpr int velocity = 0;    // u of the gas [m/s]
-constexpr int drag = 3;        // beta [kg/s]
-constexpr int gasForce = 4;    // of the gas beside drag, counted [N]
-constexpr int buoyancy = 7;    // not counted: its reaction is part of the gas's own weight [N]
-constexpr int applied = 10;    // what was counted in the last DEM step [N]
-constexpr int promised = 13;   // what was counted when the forces were set [N]
-constexpr int given = 16;      // impulse since then [N s]
-constexpr int unpaid = 19;     // of the gas, counted but not promised [N]
-constexpr int addedMass = 22;  // [kg]
-constexpr int width = 23;
+// Columns of a particle's row. Every DEM step reads and writes all rows, so a row is short.
+constexpr int velocity = 0;  // u of the gas [m/s]
+constexpr int drag = 3;      // beta [kg/s]
+constexpr int gasForce = 4;  // of the gas beside drag and buoyancy [N]
+constexpr int volume =
+    7;  // that buoyancy acts on; it is not counted: its reaction is part of the gas's own weight [m3]
+constexpr int addedMass = 8;  // [kg]
+constexpr int applied = 9;    // what was counted in the last DEM step [N]
+constexpr int beyond = 12;    // impulse since the forces were set, less what was promised then [N s]
+constexpr int width = 15;
 
 }  // namespace
 
@@ -32,6 +33,7 @@ FixCoupleCfdDrag::FixCoupleCfdDrag(LAMMPS_NS::LAMMPS* liggghts, int narg, char**
     }
     create_attribute = 1;
     restart_peratom = 1;
+    restart_global = 1;
     just_created = 0;  // otherwise the first set-up would call set_arrays for particles that are already there
     grow_arrays(atom->nmax);
     atom->add_callback(0);  // rows grow and migrate with the particles
@@ -49,43 +51,35 @@ FixCoupleCfdDrag::~FixCoupleCfdDrag()
     memory->destroy(held_);
 }
 
-void FixCoupleCfdDrag::setForces(const GasForces& forces)
+void FixCoupleCfdDrag::setForces(const GasForces& forces, double duration)
 {
+    const bool hasForce = forces.force.rows() > 0;
+    const bool hasUnpaid = forces.unpaid.rows() > 0;
+    buoyancy_ = forces.buoyancy;
     for (int i = 0; i < atom->nlocal; ++i) {
         double* row = held_[i];
         row[drag] = forces.drag[i];
-        row[addedMass] = forces.addedMass.size() > 0 ? forces.addedMass[i] : 0;
+        row[volume] = forces.volume[i];
+        row[addedMass] = hasUnpaid ? forces.addedMass[i] : 0;
         for (int d = 0; d < 3; ++d) {
-            row[unpaid + d] = forces.unpaid.rows() > 0 ? forces.unpaid(i, d) : 0;
+            const double promised = hasForce ? forces.force(i, d) : 0;
             row[velocity + d] = forces.velocity(i, d);
-            row[gasForce + d] = forces.force(i, d);
-            row[buoyancy + d] = forces.buoyancy(i, d);
-            row[promised + d] = row[drag] * (row[velocity + d] - atom->v[i][d]) + row[gasForce + d];
-            row[given + d] = 0;
+            row[gasForce + d] = promised + (hasUnpaid ? forces.unpaid(i, d) : 0);
+            row[beyond + d] = -duration * (row[drag] * (row[velocity + d] - atom->v[i][d]) + promised);
         }
     }
     givenToAll_.setZero();
 }
 
-void FixCoupleCfdDrag::impulse(Points& gained, double duration, Points& expected) const
+Vector3 FixCoupleCfdDrag::impulse(Points& account) const
 {
-    gained.resize(atom->nlocal, 3);
-    expected.resize(atom->nlocal, 3);
+    account.resize(atom->nlocal, 3);
     for (int i = 0; i < atom->nlocal; ++i) {
         for (int d = 0; d < 3; ++d) {
-            gained(i, d) = held_[i][given + d];
-            expected(i, d) = held_[i][promised + d] * duration;
+            account(i, d) = held_[i][beyond + d];
         }
     }
-}
-
-Vector3 FixCoupleCfdDrag::impulseTakenOut() const
-{
-    Vector3 left = givenToAll_;
-    for (int i = 0; i < atom->nlocal; ++i) {
-        left -= Eigen::Map<const Vector3>(held_[i] + given);
-    }
-    return left;
+    return givenToAll_;
 }
 
 int FixCoupleCfdDrag::setmask()
@@ -112,15 +106,17 @@ void FixCoupleCfdDrag::apply(double counted)
             continue;
         }
         double* row = held_[i];
-        const double timePerMass = dt / (atom->rmass[i] + row[addedMass]);
+        const double inverseMass = 1 / (atom->rmass[i] + row[addedMass]);
+        const double timePerMass = dt * inverseMass;
         const double beta = row[drag] / (1 + row[drag] * timePerMass);
-        const double share = atom->rmass[i] / (atom->rmass[i] + row[addedMass]);
+        const double share = atom->rmass[i] * inverseMass;
         for (int d = 0; d < 3; ++d) {
             const double before = atom->f[i][d];
-            const double rest = before + row[gasForce + d] + row[unpaid + d] + row[buoyancy + d];
+            const double buoyancy = row[volume] * buoyancy_[d];
+            const double rest = before + row[gasForce + d] + buoyancy;
             const double total = share * (rest + beta * (row[velocity + d] - atom->v[i][d] - timePerMass * rest));
-            const double now = total - before - row[buoyancy + d];
-            row[given + d] += counted * (row[applied + d] + now);
+            const double now = total - before - buoyancy;
+            row[beyond + d] += counted * (row[applied + d] + now);
             row[applied + d] = now;
             all[d] += now;
             atom->f[i][d] = total;
@@ -175,12 +171,29 @@ int FixCoupleCfdDrag::pack_restart(int row, double* buffer)
     return width + 1;
 }
 
+void FixCoupleCfdDrag::write_restart(FILE* file)
+{
+    if (comm->me == 0) {
+        const int size = sizeof(double) * 3;
+        std::fwrite(&size, sizeof(int), 1, file);
+        std::fwrite(buoyancy_.data(), sizeof(double), 3, file);
+    }
+}
+
+void FixCoupleCfdDrag::restart(char* buffer)
+{
+    std::memcpy(buoyancy_.data(), buffer, 3 * sizeof(double));
+}
+
 void FixCoupleCfdDrag::unpack_restart(int row, int nth)
 {
     // The extra values of all fixes stand one after the other, each with its length in front.
     const double* extra = atom->extra[row];
     for (int fix = 0; fix < nth; ++fix) {
         extra += static_cast<int>(*extra);
+    }
+    if (static_cast<int>(*extra) != width + 1) {
+        error->one(FLERR, "fix couple/cfd/drag: the restart file is of another version of himFoam");
     }
     std::copy_n(extra + 1, width, held_[row]);
     restarted_ = true;

@@ -6,6 +6,7 @@
 #include "fix.h"
 
 #include <cstdint>
+#include <cstdio>
 
 namespace him {
 
@@ -18,22 +19,21 @@ namespace him {
 /// the velocity that the DEM step dt ends with: it never overshoots, however light the particle, and in balance with a weight
 /// the slip is exactly weight/beta. The added mass takes its share of every acceleration: (F + F_drag) m/M is applied.
 ///
-/// Each particle keeps account of the impulse that the gas gave it, buoyancy left out, as the integrator applies it: half of
-/// dt with the force of the step before, half with that of the step itself. Account and forces go into restart files. The sum
-/// over all particles is kept as well. LIGGGHTS takes particles out between the two halves of a step (pre_exchange, and at open
-/// ends of the box): what they got until then, the first half included, is in the sum alone.
+/// Each particle keeps account of the impulse that the gas gave it beyond what it was promised, buoyancy left out, as the
+/// integrator applies it: half of dt with the force of the step before, half with that of the step itself. Account and forces go
+/// into restart files. All that was given is summed as well: LIGGGHTS takes particles out between the two halves of a step
+/// (pre_exchange, and at open ends of the box), and what they got until then, the first half included, is in the sum alone.
 class FixCoupleCfdDrag : public LAMMPS_NS::Fix {
 public:
     FixCoupleCfdDrag(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
     ~FixCoupleCfdDrag() override;
 
-    /// What acts on the owned particles from now on, in the order of their rows. The impulse account starts anew.
-    void setForces(const GasForces& forces);
-    /// Impulse [N s] of the gas since setForces(), and what drag and force promised for `duration` [s] when they were set, in
-    /// the order of the rows.
-    void impulse(Points& gained, double duration, Points& expected) const;
-    /// Impulse [N s] of the gas since setForces() to particles that are no longer there; the sum over all ranks counts.
-    Vector3 impulseTakenOut() const;
+    /// What acts on the owned particles from now on, in the order of their rows. Both accounts start anew.
+    /// @param duration  for which drag and force of this moment are promised [s]
+    void setForces(const GasForces& forces, double duration);
+    /// Impulse [N s] of the gas since setForces() beyond what was promised, in the order of the rows.
+    /// @return all impulse since then; the sum over all ranks counts
+    Vector3 impulse(Points& beyond) const;
     /// Particles that appeared on this rank since this fix was made.
     std::int64_t arrivals() const { return arrivals_; }
     /// Whether the rows of this rank came from a restart file.
@@ -51,12 +51,15 @@ public:
     void unpack_restart(int row, int nth) override;
     int size_restart(int row) override;
     int maxsize_restart() override;
+    void write_restart(FILE* file) override;
+    void restart(char* buffer) override;
 
 private:
     /// Adds the forces of the moment. @param counted  share of dt that the forces before and now have acted by [s]
     void apply(double counted);
 
     double** held_ = nullptr;                 ///< see the columns in the source
+    Vector3 buoyancy_ = Vector3::Zero();      ///< per volume [N/m3]
     Vector3 appliedToAll_ = Vector3::Zero();  ///< what was counted in the last DEM step, this rank's rows of then [N]
     Vector3 givenToAll_ = Vector3::Zero();    ///< impulse since setForces(), of those that were taken out too [N s]
     std::int64_t arrivals_ = 0;

@@ -261,7 +261,7 @@ void LiggghtsDem::run(long steps)
     countParticles(before);
 }
 
-void LiggghtsDem::setGasForces(const GasForces& forces)
+void LiggghtsDem::setGasForces(const GasForces& forces, double duration)
 {
     if (forces.drag.size() != lmp_->atom->nlocal) {
         throw std::logic_error("setGasForces: the forces are not those of the particles last read");
@@ -269,7 +269,7 @@ void LiggghtsDem::setGasForces(const GasForces& forces)
     if (!drag_) {
         throw std::logic_error("setGasForces: DemOptions::hasGas is not set");
     }
-    drag_->setForces(forces);
+    drag_->setForces(forces, duration);
 }
 
 bool LiggghtsDem::gasForcesRestarted() const
@@ -279,14 +279,13 @@ bool LiggghtsDem::gasForcesRestarted() const
     return restarted != 0;
 }
 
-void LiggghtsDem::gasImpulse(Points& given, double duration, Points& promised) const
+Vector3 LiggghtsDem::gasImpulse(Points& beyond) const
 {
     if (drag_) {
-        drag_->impulse(given, duration, promised);
-    } else {
-        given.setZero(lmp_->atom->nlocal, 3);
-        promised.setZero(lmp_->atom->nlocal, 3);
+        return drag_->impulse(beyond);
     }
+    beyond.setZero(lmp_->atom->nlocal, 3);
+    return Vector3::Zero();
 }
 
 LiggghtsDem::Account LiggghtsDem::account() const

@@ -51,10 +51,9 @@ public:
     void particles(DemParticles& out) const override;
     void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
-    void setGasForces(const GasForces& forces) override;
+    void setGasForces(const GasForces& forces, double duration) override;
     bool gasForcesRestarted() const override;
-    void gasImpulse(Points& given, double duration, Points& promised) const override;
-    Vector3 gasImpulseTakenOut() const override { return drag_ ? drag_->impulseTakenOut() : Vector3::Zero(); }
+    Vector3 gasImpulse(Points& beyond) const override;
     std::int64_t particleCount() const override { return expected_; }
 
     ChargeMovements movements() const override;

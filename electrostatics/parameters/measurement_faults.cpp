@@ -2,20 +2,13 @@
 #include "electrostatics/constants.hpp"
 #include "electrostatics/contact_charging.hpp"
 #include "electrostatics/parameters/measurement.hpp"
+#include "electrostatics/text.hpp"
 
 #include <cmath>
-#include <sstream>
 
 namespace him {
 
 namespace {
-
-std::string shown(double value)
-{
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
 
 class FaultList {
 public:

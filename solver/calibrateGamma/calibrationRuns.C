@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibrateGamma/calibrationRuns.H"
 
+#include "electrostatics/text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace him {
 
 namespace {
-
-std::vector<std::string> wordsOf(const std::string& line)
-{
-    std::istringstream text(line);
-    std::vector<std::string> words;
-    for (std::string word; text >> word;) {
-        words.push_back(word);
-    }
-    return words;
-}
 
 double numberFrom(const std::string& word)
 {

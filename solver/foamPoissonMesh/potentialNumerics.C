@@ -3,6 +3,8 @@
 
 #include "settings/checkedDictionary.H"
 
+#include "electrostatics/text.hpp"
+
 #include "lduMatrix.H"
 
 #include <algorithm>
@@ -20,16 +22,6 @@ constexpr double defaultTolerance = 1e-4;
 const char* const knownLaplacians = "Gauss linear followed by corrected, uncorrected, orthogonal, limited <number> or "
                                     "limited corrected <number>, with a "
                                     "number from 0 to 1";
-
-std::vector<std::string> wordsOf(const std::string& text)
-{
-    std::istringstream stream(text);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) {
-        words.push_back(word);
-    }
-    return words;
-}
 
 /// The limiter that a scheme names; nothing when it is not one of the known ones.
 std::optional<double> limitOf(const std::vector<std::string>& words)

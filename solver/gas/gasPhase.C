@@ -184,8 +184,9 @@ double gasPhase::pressureOn(Foam::label patch) const
     return Foam::gSum(Foam::scalarField(areas * flow_.pressure().boundaryField()[patch])) / Foam::gSum(areas);
 }
 
-void gasPhase::writeLine(double time)
+void gasPhase::writeLine(double time, const DemParticles& particles)
 {
+    coupling_.sumMotion(particles);
     std::ostringstream patches;
     patches.precision(12);
     for (const Foam::label patch : listed_) {

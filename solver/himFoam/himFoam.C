@@ -177,7 +177,7 @@ void run(scene& s, MPI_Comm communicator)
                 charge->write(runTime.value(), step);
             }
             if (gas) {
-                gas->writeLine(runTime.value());
+                gas->writeLine(runTime.value(), step.particles());
             }
         }
         {

@@ -15,6 +15,7 @@
 #include "wordList.H"
 
 #include <algorithm>
+#include <cfenv>
 #include <fstream>
 #include <sstream>
 
@@ -41,6 +42,18 @@ std::optional<Foam::string> textOf(const Foam::fileName& path)
     }
     return text;
 }
+
+/// Floating-point traps are off while this lives: the C library's reader of numbers overflows on 1e400, which must become a complaint.
+class withoutTraps {
+public:
+    withoutTraps() { std::feholdexcept(&before_); }
+    ~withoutTraps() { std::fesetenv(&before_); }
+    withoutTraps(const withoutTraps&) = delete;
+    withoutTraps& operator=(const withoutTraps&) = delete;
+
+private:
+    std::fenv_t before_;
+};
 
 /// Reads `value` or `value (lower upper)`.
 Foam::Istream& operator>>(Foam::Istream& stream, ValueWithEnds& number)
@@ -71,14 +84,6 @@ std::string joined(const std::vector<std::string>& words)
     return all;
 }
 
-std::string shown(double value, int digits)
-{
-    std::ostringstream stream;
-    stream.precision(digits);
-    stream << value;
-    return stream.str();
-}
-
 checkedDictionary::checkedDictionary(const Foam::fileName& casePath, const Foam::fileName& file, Complaints& complaints)
     : where_(file), readable_(false), complaints_(complaints)
 {
@@ -88,6 +93,7 @@ checkedDictionary::checkedDictionary(const Foam::fileName& casePath, const Foam:
         return;
     }
     const foamExceptions throwing;
+    const withoutTraps tooLargeNumbers;
     try {
         Foam::IStringStream stream(*text, Foam::IOstream::ASCII, Foam::IOstream::currentVersion, casePath / file);
         contents_ = Foam::dictionary(stream);

@@ -18,7 +18,10 @@ double sumOverRanks(double mine)
     return all;
 }
 
-Vector3 centreOfUnitCell(const Vector3& point) { return point.array().floor().matrix() + Vector3::Constant(0.5); }
+Vector3 centreOfUnitCell(const Vector3& point)
+{
+    return point.array().floor().matrix() + Vector3::Constant(0.5);
+}
 
 TEST(MeshLocator, findsTheCellOfEveryParticleOnWhateverRank)
 {
@@ -26,9 +29,11 @@ TEST(MeshLocator, findsTheCellOfEveryParticleOnWhateverRank)
     MeshLocator locator(mesh, MPI_COMM_WORLD);
     const DemParticles mine = dealt(randomParticles(200, box, 0.01, 1.0, Charges::random, 1), MPI_COMM_WORLD);
     locator.locate(mine.position);
+    Points centres;
+    locator.cellCentres(mine.position, centres);
     for (Index row = 0; row < mine.size(); ++row) {
         ASSERT_TRUE(locator.inMesh(row));
-        const Vector3 centre = locator.cellCentre().row(row).matrix().transpose();
+        const Vector3 centre = centres.row(row).matrix().transpose();
         EXPECT_EQ(centre, centreOfUnitCell(mine.position.row(row).matrix().transpose()));
     }
 }
@@ -67,26 +72,38 @@ TEST(MeshLocator, carriesManyColumnsAsItCarriesOne)
     const DemParticles mine = dealt(randomParticles(300, box, 0.01, 1e-9, Charges::random, 4), MPI_COMM_WORLD);
     locator.locate(mine.position);
 
-    Eigen::ArrayXXd ofRow(mine.size(), 4), ofCell;
-    ofRow << mine.charge, mine.position;
-    locator.deposit(ofRow, ofCell);
+    const auto valuesOf = [&](Index row) {
+        return std::array<double, 4>{mine.charge[row], mine.position(row, 0), mine.position(row, 1),
+                                     mine.position(row, 2)};
+    };
+    CellValues ofCell;
+    locator.deposit<4>(valuesOf, ofCell);
     ASSERT_EQ(ofCell.rows(), mesh.cellCount());
     ASSERT_EQ(ofCell.cols(), 4);
-    for (int column = 0; column < 4; ++column) {
-        Scalars one;
-        locator.deposit(Scalars(ofRow.col(column)), one);
-        EXPECT_TRUE((ofCell.col(column) == one).all()) << column;
+    for (std::size_t column = 0; column < 4; ++column) {
+        Scalars ofRow(mine.size()), one;
+        for (Index row = 0; row < mine.size(); ++row) {
+            ofRow[row] = valuesOf(row)[column];
+        }
+        locator.deposit(ofRow, one);
+        EXPECT_TRUE((ofCell.col(static_cast<Index>(column)) == one).all()) << column;
     }
 
     Points centres;
     locator.gather([&](Index cell) { return mesh.cellCentre(cell); }, centres);
-    Eigen::ArrayXXd values(mesh.cellCount(), 4), gathered(mine.size(), 4);
+    CellValues values(mesh.cellCount(), 4);
     for (Index cell = 0; cell < values.rows(); ++cell) {
         values.row(cell) << mesh.cellCentre(cell).transpose().array(), 2 * mesh.cellCentre(cell)[0];
     }
-    locator.gather(values, gathered);
-    EXPECT_TRUE((gathered.leftCols(3) == centres).all());
-    EXPECT_TRUE((gathered.col(3) == 2 * centres.col(0)).all());
+    std::vector<int> times(static_cast<std::size_t>(mine.size()));
+    locator.gather(values, [&](Index row, const double* gathered) {
+        ++times[static_cast<std::size_t>(row)];
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(gathered[axis], centres(row, axis));
+        }
+        EXPECT_EQ(gathered[3], 2 * centres(row, 0));
+    });
+    EXPECT_EQ(times, std::vector<int>(times.size(), 1)) << "every row is taken once";
 }
 
 TEST(MeshLocator, givesTheChargeOfAParticleOnAFaceBetweenRanksToExactlyOne)
@@ -106,15 +123,17 @@ TEST(MeshLocator, givesTheChargeOfAParticleOnAFaceBetweenRanksToExactlyOne)
     locator.deposit(mine.charge, cellCharge);
     locator.gather([&](Index cell) { return mesh.cellCentre(cell); }, values);
     EXPECT_EQ(sumOverRanks(cellCharge.sum()), 7.0);
-    EXPECT_TRUE((values == locator.cellCentre()).all()) << "charge and field belong to the same cell";
+    Points centres;
+    locator.cellCentres(mine.position, centres);
+    EXPECT_TRUE((values == centres).all()) << "charge and field belong to the same cell";
 }
 
 TEST(MeshLocator, leavesParticlesOutsideTheMeshOut)
 {
     DemParticles all = emptyParticles(4);
-    all.position << 0.5, 0.5, 0.5,   //
-        -0.1, 2, 2,                  //
-        4.5, 4.001, 2,               //
+    all.position << 0.5, 0.5, 0.5,  //
+        -0.1, 2, 2,                 //
+        4.5, 4.001, 2,              //
         7.5, 3.5, 3.5;
     all.charge << 1, 10, 100, 1000;
     const BoxMesh mesh(box, cells, 1.0, MPI_COMM_WORLD);
@@ -126,7 +145,10 @@ TEST(MeshLocator, leavesParticlesOutsideTheMeshOut)
     locator.deposit(mine.charge, cellCharge);
     locator.gather([](Index) -> Vector3 { return Vector3::Ones(); }, values);
     Eigen::ArrayXXd columns(mine.size(), 2);
-    locator.gather(Eigen::ArrayXXd::Ones(mesh.cellCount(), 2), columns);
+    locator.gather(CellValues::Ones(mesh.cellCount(), 2),
+                   [&](Index row, const double* gathered) { columns.row(row) << gathered[0], gathered[1]; });
+    Points centres;
+    locator.cellCentres(mine.position, centres);
     EXPECT_EQ(sumOverRanks(cellCharge.sum()), 1001.0);
     for (Index row = 0; row < mine.size(); ++row) {
         const int tag = mine.tag[static_cast<std::size_t>(row)];
@@ -135,7 +157,7 @@ TEST(MeshLocator, leavesParticlesOutsideTheMeshOut)
         EXPECT_EQ(values(row, 0), inside ? 1.0 : 0.0);
         EXPECT_TRUE((columns.row(row) == (inside ? 1.0 : 0.0)).all());
         if (!inside) {
-            EXPECT_TRUE((locator.cellCentre().row(row) == mine.position.row(row)).all());
+            EXPECT_TRUE((centres.row(row) == mine.position.row(row)).all());
         }
     }
 }

@@ -79,7 +79,12 @@ TEST_F(Dealt, resultsComeBackToTheParticlesAndZeroToThoseOutside)
         atTargets.row(target) << onMesh.tags()[static_cast<std::size_t>(target)], sources.position(target, 0);
     }
     atRows.setConstant(7);
-    onMesh.bringBack(atTargets, atRows, halo.exchange());
+    Index taken = 0;
+    onMesh.bringBack(atTargets, halo.exchange(), [&](Index row, const double* values) {
+        atRows.row(row) << values[0], values[1];
+        ++taken;
+    });
+    EXPECT_EQ(taken, mine.size());
     for (Index row = 0; row < mine.size(); ++row) {
         const int tag = mine.tag[static_cast<std::size_t>(row)];
         const bool inside = rowOf(tag) < 300;

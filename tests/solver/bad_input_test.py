@@ -61,6 +61,10 @@ class BadInput(SoundCaseTests):
         self.case.replace(ELECTROSTATIC, "himCoeffs { nearCutoff 0.02; }", "himCoeffs { nearCutoff large; }")
         self.refused("himCoeffs: nearCutoff: found `large`, but a number above zero is expected")
 
+    def test_a_number_too_large_for_a_double(self):
+        self.case.replace(ELECTROSTATIC, "relativePermittivity 1;", "relativePermittivity 1e400;")
+        self.refused("constant/electrostaticProperties: cannot be parsed", "at keyword 'relativePermittivity' on line 6")
+
     def test_two_values_in_place_of_one(self):
         self.case.replace(ELECTROSTATIC, "relativePermittivity 1;", "relativePermittivity 1 2;")
         self.refused("relativePermittivity: found `1 2`, but a number above zero is expected")

@@ -24,18 +24,26 @@ void FakeDem::setField(const DemParticles& particles, const Points& field, const
     ++fieldsSet;
 }
 
-void FakeDem::setGasForces(const GasForces& forces)
+void FakeDem::setGasForces(const GasForces& forces, double duration)
 {
     gas = forces;
     gasGiven.setZero(mine.size(), 3);
     gasTakenOut.setZero();
-    gasPromised = (forces.velocity - mine.velocity).colwise() * forces.drag + forces.force;
+    gasPromised = (forces.velocity - mine.velocity).colwise() * forces.drag;
+    if (forces.force.rows() > 0) {
+        gasPromised += forces.force;
+    }
+    gasPromised *= duration;
 }
 
-void FakeDem::gasImpulse(Points& given, double duration, Points& promised) const
+Vector3 FakeDem::gasImpulse(Points& beyond) const
 {
-    given = gas.drag.size() > 0 ? gasGiven : Points::Zero(mine.size(), 3);
-    promised = gas.drag.size() > 0 ? Points(duration * gasPromised) : Points::Zero(mine.size(), 3);
+    beyond.setZero(mine.size(), 3);
+    if (gas.drag.size() == 0) {
+        return Vector3::Zero();
+    }
+    beyond = gasGiven - gasPromised;
+    return gasTakenOut + Vector3(gasGiven.colwise().sum().matrix().transpose());
 }
 
 void FakeDem::run(long steps)
@@ -48,10 +56,13 @@ void FakeDem::run(long steps)
             mine.velocity.row(row) += timeStep_ * mine.charge[row] / mine.mass[row] * heldField.row(row);
             if (gas.drag.size() > 0) {
                 const double beta = gas.drag[row] / (1 + gas.drag[row] * timeStep_ / mine.mass[row]);
-                const Eigen::Array<double, 1, 3> counted =
-                    beta * (gas.velocity.row(row) - mine.velocity.row(row)) + gas.force.row(row);
+                Eigen::Array<double, 1, 3> counted = beta * (gas.velocity.row(row) - mine.velocity.row(row));
+                if (gas.force.rows() > 0) {
+                    counted += gas.force.row(row);
+                }
                 gasGiven.row(row) += timeStep_ * counted;
-                mine.velocity.row(row) += timeStep_ / mine.mass[row] * (counted + gas.buoyancy.row(row));
+                mine.velocity.row(row) +=
+                    timeStep_ / mine.mass[row] * (counted + gas.volume[row] * gas.buoyancy.transpose().array());
             }
             mine.position.row(row) += timeStep_ * mine.velocity.row(row);
             for (int axis = 0; axis < 3; ++axis) {

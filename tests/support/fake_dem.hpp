@@ -33,9 +33,8 @@ public:
     void particles(DemParticles& out) const override { out = mine; }
     void setField(const DemParticles& particles, const Points& field, const Points& ownResponse) override;
     void run(long steps) override;
-    void setGasForces(const GasForces& forces) override;
-    void gasImpulse(Points& given, double duration, Points& promised) const override;
-    Vector3 gasImpulseTakenOut() const override { return gasTakenOut; }
+    void setGasForces(const GasForces& forces, double duration) override;
+    Vector3 gasImpulse(Points& beyond) const override;
     std::int64_t particleCount() const override { return believedCount; }
     ChargeMovements movements() const override { return moved; }
     ContactCounts contacts() const override { return {}; }
@@ -51,7 +50,7 @@ public:
     int fieldsSet = 0;
     Points heldField;                       ///< [V/m]
     GasForces gas;                          ///< empty until setGasForces()
-    Points gasGiven, gasPromised;           ///< [N s], [N]
+    Points gasGiven, gasPromised;           ///< [N s]
     Vector3 gasTakenOut = Vector3::Zero();  ///< until setGasForces() [N s]
 
 private:

@@ -49,8 +49,8 @@ TEST_P(Shares, keepTheSumOfWhatTheyLayOnCellsBesideWallsToo)
     const DemParticles particles = spheres(200, false);
     shares.locate(particles);
     EXPECT_EQ(overRanks(static_cast<double>(shares.rowsOutside())), 0);
-    Eigen::ArrayXXd laid;
-    shares.deposit(particles.radius.cube(), laid);
+    CellValues laid;
+    shares.deposit<1>([&](Index row) { return std::array<double, 1>{std::pow(particles.radius[row], 3)}; }, laid);
     EXPECT_GE(laid.size() > 0 ? laid.minCoeff() : 0, 0);
     const double total = overRanks(particles.radius.cube().sum());
     EXPECT_NEAR(overRanks(laid.sum()), total, 1e-14 * total);
@@ -61,15 +61,15 @@ TEST_P(Shares, gatherWithTheWeightsByWhichTheyLay)
     // sum over rows of a gather(b) = sum over cells of deposit(a) b.
     const DemParticles particles = spheres(200, false);
     shares.locate(particles);
-    Eigen::ArrayXXd values(mesh.cellCount(), 2), laid, gathered;
+    CellValues values(mesh.cellCount(), 2), laid;
     for (Index cell = 0; cell < values.rows(); ++cell) {
         values(cell, 0) = std::pow(mesh.cellCentre(cell)[2], 3);
         values(cell, 1) = mesh.cellCentre(cell)[0] - 3 * mesh.cellCentre(cell)[1];
     }
-    Eigen::ArrayXXd ofParticles(particles.size(), 2);
+    Eigen::ArrayXXd ofParticles(particles.size(), 2), gathered(particles.size(), 2);
     ofParticles << particles.radius, particles.radius.square();
-    shares.deposit(ofParticles, laid);
-    shares.gather(values, gathered);
+    shares.deposit<2>([&](Index row) { return std::array<double, 2>{ofParticles(row, 0), ofParticles(row, 1)}; }, laid);
+    shares.gather(values, [&](Index row, const double* means) { gathered.row(row) << means[0], means[1]; });
     for (int column = 0; column < 2; ++column) {
         const double ofRows = overRanks((ofParticles.col(column) * gathered.col(column)).sum());
         EXPECT_NEAR(overRanks((laid.col(column) * values.col(column)).sum()), ofRows, 1e-13 * std::fabs(ofRows));
@@ -118,11 +118,15 @@ TEST_P(Shares, giveNothingOfParticlesOutside)
     particles.position.col(1) += 3;
     shares.locate(particles);
     EXPECT_EQ(shares.rowsOutside(), particles.size());
-    Eigen::ArrayXXd laid, found;
-    shares.deposit(particles.radius, laid);
+    CellValues laid;
+    shares.deposit<1>([&](Index row) { return std::array<double, 1>{particles.radius[row]}; }, laid);
     EXPECT_EQ(laid.abs().sum(), 0);
-    shares.gather(Eigen::ArrayXXd::Ones(mesh.cellCount(), 3), found);
-    EXPECT_EQ(found.abs().sum(), 0);
+    Index taken = 0;
+    shares.gather(CellValues::Ones(mesh.cellCount(), 3), [&](Index, const double* means) {
+        EXPECT_EQ(std::abs(means[0]) + std::abs(means[1]) + std::abs(means[2]), 0);
+        ++taken;
+    });
+    EXPECT_EQ(taken, particles.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(ByCentreAndBySubPoints, Shares, testing::Bool());
