@@ -44,7 +44,8 @@ struct DemWall {
     ImageWall image = {};        ///< of a primitive wall; the side of a plane's normal is arbitrary
 };
 
-/// How the gas acts on particles from one gas step to the next: drag (velocity - v) + force + buoyancy. One row per particle.
+/// How the gas acts on particles from one gas step to the next: drag (velocity - v) + force + unpaid + buoyancy volume. One
+/// row per particle.
 struct GasForces {
     Points velocity;  ///< of the gas at the particle [m/s]
     Scalars drag;     ///< beta [kg/s], at least 0

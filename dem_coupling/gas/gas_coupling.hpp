@@ -105,7 +105,7 @@ private:
     [[noreturn]] void refuseOutside(const DemParticles& particles) const;
     /// beta of every particle and where the law has not been shown to hold.
     void findDrag(const DemParticles& particles, const Points& velocity);
-    /// Deviation of the gas velocity at the particles from that of their cells, by the profile. After toRows() of the velocity.
+    /// Deviation of the gas velocity at the particles from that of their cells, by the profile. After smoothColumns() of seen_.
     void findDeviations(const DemParticles& particles);
     /// Lays drag, its momentum and what is owed on the mesh. After findDrag().
     void laySources(const DemParticles& particles);

@@ -51,7 +51,7 @@ private:
     Index rows_ = 0;
     std::vector<std::int8_t> inside_;  ///< points of each row in the mesh; empty with one point per particle
     Points place_;                     ///< of all points, row by row [m]
-    CellValues sums_;                  ///< of a row over its points
+    std::vector<double> sums_;         ///< of every row over its points; keeps its memory for any number of columns
     Points pointVector_;
 };
 
@@ -84,17 +84,18 @@ template <class Take> void ParticleShares::gather(const CellValues& ofCell, cons
         locator_.gather(ofCell, take);
         return;
     }
-    sums_.setZero(rows_, ofCell.cols());
+    const auto columns = static_cast<std::size_t>(ofCell.cols());
+    sums_.assign(static_cast<std::size_t>(rows_) * columns, 0.0);
     locator_.gather(ofCell, [&](Index point, const double* values) {
-        double* const sum = sums_.data() + point / points_ * sums_.cols();
-        for (Index k = 0; k < sums_.cols(); ++k) {
+        double* const sum = sums_.data() + static_cast<std::size_t>(point / points_) * columns;
+        for (std::size_t k = 0; k < columns; ++k) {
             sum[k] += values[k];
         }
     });
     for (Index row = 0; row < rows_; ++row) {
-        double* const sum = sums_.data() + row * sums_.cols();
+        double* const sum = sums_.data() + static_cast<std::size_t>(row) * columns;
         const int inside = inside_[static_cast<std::size_t>(row)];
-        for (Index k = 0; inside > 0 && k < sums_.cols(); ++k) {
+        for (std::size_t k = 0; inside > 0 && k < columns; ++k) {
             sum[k] /= inside;
         }
         take(row, sum);

@@ -109,7 +109,7 @@ void FixCoupleCfdDrag::apply(double counted)
         const double inverseMass = 1 / (atom->rmass[i] + row[addedMass]);
         const double timePerMass = dt * inverseMass;
         const double beta = row[drag] / (1 + row[drag] * timePerMass);
-        const double share = atom->rmass[i] * inverseMass;
+        const double share = 1 - row[addedMass] * inverseMass;  // of m in M; exactly 1 without added mass
         for (int d = 0; d < 3; ++d) {
             const double before = atom->f[i][d];
             const double buoyancy = row[volume] * buoyancy_[d];
