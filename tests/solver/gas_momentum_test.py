@@ -153,7 +153,7 @@ class Momentum(unittest.TestCase):
                     self.assertEqual(round(max(steps)/1e-5), 5)
 
     def test_a_run_whose_step_follows_the_courant_number_continues_bit_for_bit(self):
-        box = self.box(spheres(6, 0.02, 3e-3), size=0.02, cells=4, U="uniform (1 0.5 -0.2)", step=2e-5, end=8e-3,
+        box = self.box(spheres(6, 0.02, 3e-3), size=0.02, cells=4, U="uniform (1 0.5 -0.2)", step=2e-5, end=8e-3, gravity=9.81,
                        more="adjustTimeStep yes; maxCo 0.05; maxDeltaT 2e-4;")
         box.replace("system/controlDict", "writeInterval 100000", "writeInterval 20")
         straight = box.rows()
@@ -163,7 +163,7 @@ class Momentum(unittest.TestCase):
         continued = box.rows(start=start)
         self.assertEqual(len(continued), len(straight) - 20)
         for row, expected in zip(continued, straight[20:]):
-            for name in ("deltaT", "forceX", "massCentreX", "gasMomentumX", "particleMomentumX"):
+            for name in ("deltaT", "forceX", "massCentreX", "massCentreZ", "gasMomentumX", "particleMomentumX", "particleMomentumZ"):
                 self.assertEqual(row[name], expected[name], "%s at %g s" % (name, row["Time"]))
 
     def test_every_number_of_ranks_gives_the_same_gas_where_no_patch_gives_a_pressure(self):

@@ -102,6 +102,24 @@ class Gas(unittest.TestCase):
         two = self.run_case(ranks=2)
         self.assertAlmostEqual(self.speed(two), self.speed(one), delta=1e-6)
 
+    def test_a_patch_without_faces_that_a_tool_left_over_changes_nothing(self):
+        self.case.replace("system/controlDict", "endTime         0.05;", "endTime         0.005;")
+        self.case.replace("system/blockMeshDict", "    top   { type patch;", "    left  { type patch; faces (); }\n    top   { type patch;")
+        for field, condition in (("U", "noSlip;"), ("p", "fixedFluxPressure; value uniform 0;")):
+            self.case.replace("0/" + field, "    floor {", "    left  { type %s }\n    floor {" % condition)
+        names = self.run_case()[0].keys()
+        self.assertIn("p_top", names)
+        self.assertNotIn("p_left", names)
+
+    def test_the_log_of_a_gas_without_charges_says_nothing_of_them(self):
+        self.case.replace("system/controlDict", "endTime         0.05;", "endTime         0.01;")
+        self.case.tool("blockMesh")
+        text = self.case.run().text
+        self.assertIn("Gas: deltaT", text)
+        after = text[text.index("Gas: deltaT"):]
+        for word in ("charge", "potential", "lectric", "omega"):
+            self.assertNotIn(word, after)
+
     def test_a_run_that_continues_goes_on_as_the_run_that_wrote_it(self):
         """A large sphere, whose way through the cells pushes gas about: a first step that knows no void fraction before it shows."""
         self.start_at(0.9)
