@@ -36,7 +36,7 @@ public:
     /// The targets with their tags and positions, for messages.
     DemParticles targetsForMessages() const;
 
-    /// Values of the targets, one row each, to the rows of the particles; zero for particles outside the mesh.
+    /// Values of the targets, one row each, to the rows of the particles, by ParticlesOnMesh::bringBack().
     template <class Take> void bringBack(const Eigen::ArrayXXd& atTargets, const Take& take)
     {
         particlesOnMesh_.bringBack(atTargets, halo_.exchange(), take);

@@ -193,7 +193,8 @@ void FixCoupleCfdDrag::unpack_restart(int row, int nth)
         extra += static_cast<int>(*extra);
     }
     if (static_cast<int>(*extra) != width + 1) {
-        error->one(FLERR, "fix couple/cfd/drag: the restart file is of another version of himFoam");
+        error->one(FLERR, "fix couple/cfd/drag: the restart file is of another version of himFoam. Continue it with that one, or "
+                          "begin the run anew");
     }
     std::copy_n(extra + 1, width, held_[row]);
     restarted_ = true;

@@ -33,7 +33,7 @@ public:
     void setForces(const GasForces& forces, double duration);
     /// Impulse [N s] of the gas since setForces() beyond what was promised, in the order of the rows.
     /// @return all impulse since then; the sum over all ranks counts
-    Vector3 impulse(Points& beyond) const;
+    Vector3 impulse(Points& account) const;
     /// Particles that appeared on this rank since this fix was made.
     std::int64_t arrivals() const { return arrivals_; }
     /// Whether the rows of this rank came from a restart file.

@@ -90,6 +90,7 @@ callTimes timedMethod::call(const DemParticles& particles)
     }
     MPI_Allreduce(MPI_IN_PLACE, times.phase.data(), static_cast<int>(times.phase.size()), MPI_DOUBLE, MPI_MAX,
                   communicator_);
+    MPI_Allreduce(MPI_IN_PLACE, &times.total, 1, MPI_DOUBLE, MPI_MAX, communicator_);
     return times;
 }
 

@@ -3,6 +3,7 @@
 
 #include "dem_coupling/gas/gas_coupling.hpp"
 #include "electrostatics/constants.hpp"
+#include "tests/support/fake_gas_mesh.hpp"
 #include "tests/support/particle_sets.hpp"
 
 #include <array>
